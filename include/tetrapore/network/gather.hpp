@@ -38,14 +38,15 @@ namespace tetrapore::inline TETRAPORE_ABI {
   return f;
 }
 
-/// The throat t with its geometry, seen from its pore 0, unwrapped.
-[[nodiscard]] inline throat<double> throat_at(const network& net, throat_id t) noexcept {
+namespace detail {
+
+/// The vertices of the throat t, seen from its pore 0, unwrapped, with the area vector of the facet.
+[[nodiscard]] inline throat<double> facet_at(const network& net, throat_id t) noexcept {
   const pore_id p = net.pores(t)[0];
-  const auto f = facet_slots(net, p, net.slot(t, 0));
   throat<double> out;
   std::size_t grains = 0;
   std::size_t walls = 0;
-  for (const std::uint8_t k : f) {
+  for (const std::uint8_t k : facet_slots(net, p, net.slot(t, 0))) {
     const vertex v = net.vertices(p)[k];
     if (v.is_wall()) {
       out.walls[walls++] = net.region().wall(v.wall());
@@ -65,7 +66,15 @@ namespace tetrapore::inline TETRAPORE_ABI {
     const auto& [w1, w2] = out.walls;
     out.area_vector = cross(w1.normal, w2.normal) * (w1.distance(c) * w2.distance(c));
   }
-  out.nodes[0] = net.power_centre(p);
+  return out;
+}
+
+}  // namespace detail
+
+/// The throat t with its geometry, seen from its pore 0, unwrapped. The network must have been measured.
+[[nodiscard]] inline throat<double> throat_at(const network& net, throat_id t) noexcept {
+  throat<double> out = detail::facet_at(net, t);
+  out.nodes[0] = net.power_centre(net.pores(t)[0]);
   out.nodes[1] = net.is_boundary(t) ? out.nodes[0] : net.power_centre(net.pores(t)[1]) + net.region().shift(net.shift(t));
   return out;
 }
