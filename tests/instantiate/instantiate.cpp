@@ -22,10 +22,10 @@ template struct outcome<double, entry_status>;
   template struct edge<T>;       \
   template struct throat<T>;     \
   template struct opening<T>;    \
-  template struct pore_body<T>;
+  template struct pore_body<T>
 
-TETRAPORE_INSTANTIATE(float)
-TETRAPORE_INSTANTIATE(double)
-TETRAPORE_INSTANTIATE(long double)
+TETRAPORE_INSTANTIATE(float);
+TETRAPORE_INSTANTIATE(double);
+TETRAPORE_INSTANTIATE(long double);
 
 }  // namespace tetrapore::inline TETRAPORE_ABI

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Two halves of one program, compiled with and without contracts, call the same inline functions and templates. Were the
-// two modes not in different inline namespaces, the linker would keep one definition of each for both halves.
+// Two halves of one program, compiled with and without contracts, call the same inline functions and templates. Were
+// the two modes not in different inline namespaces, the linker would keep one definition of each for both halves.
 
 #include <csignal>
 #include <cstdio>

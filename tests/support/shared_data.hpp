@@ -10,8 +10,8 @@
 #include <string_view>
 
 /// \file
-/// Where the tests find their data. TETRAPORE_TEST_DATA is the folder tests/ of this project; TETRAPORE_SHARED_DIR holds
-/// the packings and tables that do not ship with it.
+/// Where the tests find their data. TETRAPORE_TEST_DATA is the folder tests/ of this project; TETRAPORE_SHARED_DIR
+/// holds the packings and tables that do not ship with it.
 
 /// A file under TETRAPORE_SHARED_DIR. Where it is absent the test says so and gets nothing, so that it can return;
 /// with TETRAPORE_REQUIRE_SHARED=1 in the environment the absence is a failure.
