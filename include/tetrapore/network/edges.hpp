@@ -3,7 +3,9 @@
 
 #include "tetrapore/network/network.hpp"
 
+#include <algorithm>
 #include <optional>
+#include <vector>
 
 /// \file
 /// Walking around an edge: the pores and throats that share a pair of neighbours.
@@ -59,6 +61,37 @@ struct edge_cursor {
   TETRAPORE_EXPECTS(next.first < 4 && next.second < 4, "the two pores of a throat share its vertices");
   next.behind = static_cast<std::uint8_t>(6 - next.first - next.second - next.ahead);
   return next;
+}
+
+/// Two neighbouring vertices: the second at an image relative to the first. Grains before walls, the smaller grain first.
+struct vertex_pair {
+  vertex first;
+  vertex second;
+  image at;
+
+  [[nodiscard]] friend constexpr auto operator<=>(const vertex_pair&, const vertex_pair&) noexcept = default;
+};
+
+/// The edges of a network, each once, ascending: pairs of grains, of a grain and a wall, of two walls.
+[[nodiscard]] inline std::vector<vertex_pair> edges_of(const network& net) {
+  std::vector<vertex_pair> all;
+  all.reserve(6 * net.pore_count());
+  for (std::size_t i = 0; i < net.pore_count(); ++i) {
+    const pore_id p(i);
+    for (std::size_t a = 0; a < 3; ++a) {
+      for (std::size_t b = a + 1; b < 4; ++b) {
+        vertex u = net.vertices(p)[a];
+        vertex v = net.vertices(p)[b];
+        image at = v.is_wall() || u.is_wall() ? image{} : net.image_of(p, b) - net.image_of(p, a);
+        const bool swap = (u.is_wall() && !v.is_wall()) || (u.is_wall() == v.is_wall() && v < u) ||
+                          (u == v && at < image{});
+        all.push_back(swap ? vertex_pair{v, u, image{} - at} : vertex_pair{u, v, at});
+      }
+    }
+  }
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
 }
 
 }  // namespace tetrapore::inline TETRAPORE_ABI

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tetrapore/network/connect.hpp"
+#include "tetrapore/network/measure.hpp"
 #include "tetrapore/tessellation/tessellation.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -168,8 +169,8 @@ class cgal_triangulation {
                                                     const detail::topology_frame& frame, double padding) const {
     regular t;
     tessellation_report report;
+    insert_walls(t, region, frame);  // first: a query at a wall would always need exact arithmetic
     const std::vector<vec3<double>> where = insert_grains(t, grains, region, frame, padding, report);
-    insert_walls(t, region, frame);
     note_hidden(t, where, report);
     auto cells = region.any_periodic() ? periodic_cells(t) : bounded_cells(t);
     if (!cells) {
@@ -181,6 +182,7 @@ class cgal_triangulation {
     t.clear();
     network net(connect(region, {grains.begin(), grains.end()}, std::move(*cells)));
     detail::name_boundaries(net);
+    report.measured = measure(net);
     return tessellation{std::move(net), std::move(report)};
   }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "tetrapore/network/network.hpp"
+#include "tetrapore/network/measure.hpp"
 
 #include <concepts>
 #include <span>
@@ -22,6 +22,7 @@ struct hidden_grain {
 struct tessellation_report {
   std::vector<hidden_grain> hidden;  ///< ascending in grain
   std::size_t ghosts = 0;            ///< periodic copies that were inserted beside the grains
+  measure_report measured;
 };
 
 /// A network with the report of its making.
