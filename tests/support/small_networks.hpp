@@ -49,18 +49,32 @@
   return network(std::move(a), 7);
 }
 
-/// The box [0,4] × [0,2] × [0,3] with four grains: one tetrahedron, and all that walls can make: prisms, wedges, cuboids.
-/// The cells are those of the hull of the grains joined to the walls; 1 + 4 + 6 + ... of them fill the box.
-[[nodiscard]] inline tetrapore::network one_grain_in_a_box() {
+/// Two grains in the box [0,4] x [0,2] x [0,3]: four wedges around their axis, eight cuboids in the corners, which fill it.
+[[nodiscard]] inline tetrapore::network two_grains_in_a_box() {
   using namespace tetrapore;
   std::vector<std::array<vertex, 4>> cells;
-  const vertex g{grain_id(0)};
-  for (const face x : {face::x_min, face::x_max}) {
-    for (const face y : {face::y_min, face::y_max}) {
-      for (const face z : {face::z_min, face::z_max}) {
-        cells.push_back({g, vertex(x), vertex(y), vertex(z)});
-      }
+  for (const face y : {face::y_min, face::y_max}) {
+    for (const face z : {face::z_min, face::z_max}) {
+      const vertex a{grain_id(0)};
+      const vertex b{grain_id(1)};
+      cells.push_back({a, b, vertex(y), vertex(z)});
+      cells.push_back({a, vertex(face::x_min), vertex(y), vertex(z)});
+      cells.push_back({b, vertex(face::x_max), vertex(y), vertex(z)});
     }
   }
-  return network_of(walled({{0, 0, 0}, {4, 2, 3}}), {{{1, 1.5, 1}, 0.5}}, cells);
+  return network_of(walled({{0, 0, 0}, {4, 2, 3}}), {{{1, 1.5, 1}, 0.4}, {{2.5, 1, 2}, 0.3}}, cells);
+}
+
+/// One tetrahedron between four grains, without a box.
+[[nodiscard]] inline tetrapore::network one_tetrahedron() {
+  using namespace tetrapore;
+  return network_of(unbounded(), {{{0, 0, 0}, 0.1}, {{1, 0, 0}, 0.2}, {{0, 1, 0}, 0.3}, {{0, 0, 1}, 0.4}},
+                    {{vertex(grain_id(0)), vertex(grain_id(1)), vertex(grain_id(2)), vertex(grain_id(3))}});
+}
+
+/// One prism between three grains and the wall z_max of the box [0,1]³.
+[[nodiscard]] inline tetrapore::network one_prism() {
+  using namespace tetrapore;
+  return network_of(walled({{0, 0, 0}, {1, 1, 1}}), {{{0, 0, 0.5}, 0.1}, {{1, 0, 0.25}, 0.2}, {{0, 1, 0.75}, 0.3}},
+                    {{vertex(grain_id(0)), vertex(grain_id(1)), vertex(grain_id(2)), vertex(face::z_max)}});
 }

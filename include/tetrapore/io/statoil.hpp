@@ -4,8 +4,8 @@
 #include "tetrapore/io/output_file.hpp"
 #include "tetrapore/network/gather.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -32,7 +32,7 @@
 ///   pore takes the mean over its throats weighted by area, as pnextract does.
 /// - The position of a pore is the mean of the corners of its cell, the place of a throat that of its facet; two thirds
 ///   of the way from pore to facet count as pore, the rest as link, as in pnextract.
-/// - A throat that is closed (radius 0) has no link: the format knows no such thing.
+/// - A throat that is closed (radius 0) has no link, and a pore without links is not listed: the format knows neither.
 /// A contact angle, an entry pressure and the merging of facets have no column.
 
 namespace tetrapore::inline TETRAPORE_ABI {
@@ -53,6 +53,7 @@ struct statoil_report {
   std::size_t links = 0;
   std::size_t reservoir_pores = 0;  ///< left out: they are the reservoirs
   std::size_t closed_throats = 0;   ///< left out: radius 0
+  std::size_t isolated_pores = 0;   ///< left out: every throat is closed
 };
 
 namespace detail {
@@ -112,14 +113,21 @@ inline statoil_report write_statoil(const std::filesystem::path& prefix, const n
   statoil_report report;
   constexpr std::int64_t at_inlet = -1;
   constexpr std::int64_t at_outlet = 0;
-  std::vector<std::int64_t> number(net.pore_count());
+  constexpr std::int64_t isolated = -2;
+  const auto open = [&](throat_id t) {
+    return t.valid() && !net.is_boundary(t) && g.throat_radius[t.index()] > 0 && g.throat_area[t.index()] > 0;
+  };
+  std::vector<std::int64_t> number(net.pore_count(), isolated);
   for (std::size_t p = 0; p < net.pore_count(); ++p) {
+    const auto& throats = net.throats(pore_id(p));
     const bool inlet = net.touches(pore_id(p), g.inlet);
     if (inlet || net.touches(pore_id(p), g.outlet)) {
       number[p] = inlet ? at_inlet : at_outlet;
       ++report.reservoir_pores;
-    } else {
+    } else if (std::any_of(throats.begin(), throats.end(), open)) {
       number[p] = static_cast<std::int64_t>(++report.pores);
+    } else {
+      ++report.isolated_pores;
     }
   }
 
@@ -138,12 +146,12 @@ inline statoil_report write_statoil(const std::filesystem::path& prefix, const n
     }
     const auto [p, q] = net.pores(t);
     std::array<std::int64_t, 2> ends{number[p.index()], number[q.index()]};
-    if (ends[0] <= 0 && ends[1] <= 0) {
-      continue;
-    }
-    if (!(g.throat_radius[k] > 0) || !(g.throat_area[k] > 0)) {
+    if (!open(t)) {
       ++report.closed_throats;
       continue;
+    }
+    if (ends[0] <= 0 && ends[1] <= 0) {
+      continue;  // inside a reservoir
     }
     const vec3<double> facet = detail::mean_corner(net, p, facet_vertices[net.slot(t, 0)]);
     const vec3<double> beyond = detail::mean_corner(net, q) + net.region().shift(net.shift(t));
@@ -207,7 +215,7 @@ inline statoil_report write_statoil(const std::filesystem::path& prefix, const n
     }
     node1 << '\n';
     node2 << number[p] << ' ' << net.void_volume(pore_id(p)) << ' ' << g.pore_radius[p] << ' '
-          << (mine.empty() ? std::numeric_limits<double>::quiet_NaN() : shape / area) << " 0\n";
+          << shape / area << " 0\n";
   }
   link1 << links.size() << '\n';
   for (std::size_t l = 0; l < links.size(); ++l) {
