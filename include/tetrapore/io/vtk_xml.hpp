@@ -73,14 +73,14 @@ struct vtk_element<vec3<T>> {
 
 /// A named column of numbers: a view of the caller's array, which must live until the file is written. Elements are
 /// integers, enumerations, float, double or vec3.
-class column {
+class data_column {
  public:
   template <class Array>
     requires requires(const Array& a) {
       std::data(a);
       std::size(a);
     }
-  column(std::string name, const Array& values) : name_(std::move(name)), bytes_(std::data(values)) {
+  data_column(std::string name, const Array& values) : name_(std::move(name)), bytes_(std::data(values)) {
     using value = std::remove_cvref_t<decltype(*std::data(values))>;
     using element = detail::vtk_element<value>;
     rows_ = std::size(values);
@@ -120,7 +120,7 @@ class vtk_xml_file {
   void close(std::string_view tag) { file_ << "</" << tag << ">\n"; }
 
   /// Announces an array; its bytes follow in `finish`.
-  void array(column c) {
+  void array(data_column c) {
     file_ << "<DataArray type=\"" << c.type() << "\" Name=\"" << xml_escaped(c.name()) << "\" NumberOfComponents=\""
           << c.components() << "\" format=\"appended\" offset=\"" << offset_ << "\"/>\n";
     offset_ += sizeof(std::uint64_t) + c.size_in_bytes();
@@ -128,9 +128,9 @@ class vtk_xml_file {
   }
 
   /// A block of the caller's columns, each of which must have one row per cell or point.
-  void columns(std::string_view tag, std::span<const column> all, std::size_t rows) {
+  void columns(std::string_view tag, std::span<const data_column> all, std::size_t rows) {
     open(tag);
-    for (const column& c : all) {
+    for (const data_column& c : all) {
       if (c.rows() != rows) {
         throw parameter_error("column \"" + c.name() + "\"", std::to_string(c.rows()) + " rows",
                               std::to_string(rows) + ", one per row of " + file_.path().filename().string());
@@ -142,7 +142,7 @@ class vtk_xml_file {
 
   void finish() {
     file_ << "</" << type_ << ">\n<AppendedData encoding=\"raw\">\n_";
-    for (const column& c : arrays_) {
+    for (const data_column& c : arrays_) {
       const auto size = static_cast<std::uint64_t>(c.size_in_bytes());
       file_.write(&size, sizeof size);
       file_.write(c.bytes(), c.size_in_bytes());
@@ -154,7 +154,7 @@ class vtk_xml_file {
  private:
   output_file file_;
   std::string type_;
-  std::vector<column> arrays_;
+  std::vector<data_column> arrays_;
   std::size_t offset_ = 0;
 };
 

@@ -18,7 +18,7 @@ namespace io {
 /// \throw output_error     where the file cannot be written
 /// \throw parameter_error  for a column of another length; nothing is written then
 inline void write_grains(const std::filesystem::path& path, std::span<const sphere<double>> grains,
-                         std::span<const column> data = {}) {
+                         std::span<const data_column> data = {}) {
   std::vector<vec3<double>> centres;
   std::vector<double> radii;
   for (const auto& g : grains) {
@@ -29,7 +29,7 @@ inline void write_grains(const std::filesystem::path& path, std::span<const sphe
   std::iota(each.begin(), each.end(), 0);
   std::vector<std::int32_t> ends(grains.size());
   std::iota(ends.begin(), ends.end(), 1);
-  std::vector<column> all{{"radius", radii}};
+  std::vector<data_column> all{{"radius", radii}};
   all.insert(all.end(), data.begin(), data.end());
 
   detail::vtk_xml_file file(path, "PolyData");
@@ -48,7 +48,7 @@ inline void write_grains(const std::filesystem::path& path, std::span<const sphe
   file.finish();
 }
 inline void write_grains(const std::filesystem::path& path, std::span<const sphere<double>> grains,
-                         std::initializer_list<column> data) {
+                         std::initializer_list<data_column> data) {
   write_grains(path, grains, std::span(data.begin(), data.size()));
 }
 

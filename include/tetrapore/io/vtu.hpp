@@ -118,7 +118,7 @@ inline void add_throat(vtk_cells& cells, corner_points& corners, const network& 
 }
 
 inline void write_grid(const std::filesystem::path& path, const corner_points& corners, const vtk_cells& cells,
-                       std::span<const column> data) {
+                       std::span<const data_column> data) {
   const std::size_t count = cells.types.size();
   vtk_xml_file file(path, "UnstructuredGrid");
   file.open("Piece NumberOfPoints=\"" + std::to_string(corners.points().size()) + "\" NumberOfCells=\"" +
@@ -144,7 +144,7 @@ inline void write_grid(const std::filesystem::path& path, const corner_points& c
 /// \param data  columns of one row per pore
 /// \throw output_error     where the file cannot be written
 /// \throw parameter_error  for a column of another length; nothing is written then
-inline void write_pores(const std::filesystem::path& path, const network& net, std::span<const column> data) {
+inline void write_pores(const std::filesystem::path& path, const network& net, std::span<const data_column> data) {
   detail::corner_points corners(net);
   detail::vtk_cells cells;
   cells.corners.reserve(4 * net.pore_count());
@@ -155,7 +155,7 @@ inline void write_pores(const std::filesystem::path& path, const network& net, s
   }
   detail::write_grid(path, corners, cells, data);
 }
-inline void write_pores(const std::filesystem::path& path, const network& net, std::initializer_list<column> data) {
+inline void write_pores(const std::filesystem::path& path, const network& net, std::initializer_list<data_column> data) {
   write_pores(path, net, std::span(data.begin(), data.size()));
 }
 
@@ -165,7 +165,7 @@ inline void write_pores(const std::filesystem::path& path, const network& net, s
 /// \param data  columns of one row per throat
 /// \throw output_error     where the file cannot be written
 /// \throw parameter_error  for a column of another length; nothing is written then
-inline void write_throats(const std::filesystem::path& path, const network& net, std::span<const column> data) {
+inline void write_throats(const std::filesystem::path& path, const network& net, std::span<const data_column> data) {
   detail::corner_points corners(net);
   detail::vtk_cells cells;
   for (std::size_t t = 0; t < net.throat_count(); ++t) {
@@ -173,7 +173,7 @@ inline void write_throats(const std::filesystem::path& path, const network& net,
   }
   detail::write_grid(path, corners, cells, data);
 }
-inline void write_throats(const std::filesystem::path& path, const network& net, std::initializer_list<column> data) {
+inline void write_throats(const std::filesystem::path& path, const network& net, std::initializer_list<data_column> data) {
   write_throats(path, net, std::span(data.begin(), data.size()));
 }
 
