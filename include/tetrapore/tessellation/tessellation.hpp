@@ -42,4 +42,14 @@ concept tessellation_engine = requires(E engine, std::span<const sphere<double>>
   { engine(grains, region) } -> std::same_as<tessellation>;
 };
 
+/// Triangulates any range of grains (see grain_like) in a region.
+template <class Grains, tessellation_engine Engine>
+[[nodiscard]] tessellation tessellate(const Grains& grains, const domain& region, const Engine& engine) {
+  std::vector<sphere<double>> spheres;
+  for (const auto& g : grains) {
+    spheres.push_back(as_sphere(g));
+  }
+  return engine(std::span<const sphere<double>>(spheres), region);
+}
+
 }  // namespace tetrapore::inline TETRAPORE_ABI
