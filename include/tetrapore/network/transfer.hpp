@@ -11,7 +11,6 @@
 #include <cstdint>
 #include <limits>
 #include <string>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -85,20 +84,7 @@ namespace detail {
 
 struct site_key {
   std::array<std::pair<vertex, image>, 4> sites;
-  [[nodiscard]] friend bool operator==(const site_key&, const site_key&) = default;
-};
-
-struct site_hash {
-  [[nodiscard]] std::size_t operator()(const site_key& key) const noexcept {
-    std::uint64_t h = 0;
-    for (const auto& [v, at] : key.sites) {
-      const auto code = static_cast<std::uint32_t>(v.code());
-      const auto shift = static_cast<std::uint32_t>((at.x + 128) | ((at.y + 128) << 8) | ((at.z + 128) << 16));
-      h = (h ^ ((static_cast<std::uint64_t>(code) << 32U) | shift)) * 0x9e3779b97f4a7c15ULL;
-      h ^= h >> 29U;
-    }
-    return static_cast<std::size_t>(h);
-  }
+  [[nodiscard]] friend auto operator<=>(const site_key&, const site_key&) = default;
 };
 
 /// The vertices of a pore in ascending order, at images relative to the first.
@@ -348,18 +334,20 @@ inline void give_each_a_share(const network& after, std::vector<std::vector<tran
 /// the others by the void volume they have in common.
 /// \par Domain  the same region; a cell that followed its grains until it turned inside out counts upright
 [[nodiscard]] inline transfer overlap_transfer(const network& before, const network& after) {
-  std::unordered_map<detail::site_key, std::uint32_t, detail::site_hash> kept;
+  std::vector<std::pair<detail::site_key, std::uint32_t>> kept;
   kept.reserve(after.pore_count());
   for (std::size_t j = 0; j < after.pore_count(); ++j) {
-    kept.emplace(detail::key_of(after, pore_id(j)), static_cast<std::uint32_t>(j));
+    kept.emplace_back(detail::key_of(after, pore_id(j)), static_cast<std::uint32_t>(j));
   }
+  std::sort(kept.begin(), kept.end());
   constexpr std::uint32_t none = 0xffffffffU;
   std::vector<std::uint32_t> same(before.pore_count(), none);
   std::vector<bool> found(after.pore_count(), false);
   std::vector<pore_id> gone;
   for (std::size_t i = 0; i < before.pore_count(); ++i) {
-    const auto at = kept.find(detail::key_of(before, pore_id(i)));
-    if (at != kept.end() && !found[at->second]) {
+    const detail::site_key key = detail::key_of(before, pore_id(i));
+    const auto at = std::lower_bound(kept.begin(), kept.end(), std::pair{key, std::uint32_t{0}});
+    if (at != kept.end() && at->first == key && !found[at->second]) {
       same[i] = at->second;
       found[at->second] = true;
     } else {
