@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// \file
+/// All entry laws.
+
+#include "tetrapore/law/entry/concept.hpp"
+#include "tetrapore/law/entry/inscribed_circle.hpp"
+#include "tetrapore/law/entry/lost_arc.hpp"
+#include "tetrapore/law/entry/mayer_stowe_princen.hpp"
+#include "tetrapore/law/entry/mirror_sided.hpp"

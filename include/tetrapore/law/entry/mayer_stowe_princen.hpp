@@ -1,0 +1,581 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "tetrapore/law/entry/gas_section.hpp"
+#include "tetrapore/law/entry/inscribed_circle.hpp"
+
+#include <type_traits>
+
+namespace tetrapore::inline TETRAPORE_ABI {
+
+/// The section of a meniscus at the moment it enters.
+/// \par Units  [m], [m²], angles [rad]
+template <real T>
+struct entry_meniscus {
+  T radius;           ///< r = σ / p
+  T area;             ///< A_nw, the gas
+  T meniscus_length;  ///< L_nw, arcs
+  T wetted_length;    ///< L_ns, solid that the gas touches
+  std::size_t count;  ///< sides that it touches: all of them, unless a side of a ring lies behind an arc
+  std::array<std::uint8_t, opening<T>::max_sides> side;  ///< index of each in the opening
+  std::array<T, opening<T>::max_sides> arc;              ///< ψ, angle of the arc after each side; 0: corner or open
+  std::array<T, opening<T>::max_sides> wetted;           ///< per side: angle of a disc, length of a line [m]
+};
+
+/// How the entry pressure answers to the moves of the sides of an opening.
+/// \par Units  [Pa/m]
+template <real T>
+struct entry_sensitivity {
+  T pressure;                                              ///< [Pa]
+  std::array<vec2<T>, opening<T>::max_sides> by_centre{};  ///< dp/d centre of a disc; of a line: along its normal
+  std::array<T, opening<T>::max_sides> by_radius{};        ///< dp/dR of a disc; 0 for a line
+};
+
+namespace detail {
+
+/// A ring with the indices that its sides had in the opening it was taken from.
+template <real T>
+struct sub_ring {
+  opening<T> ring;
+  std::array<std::uint8_t, opening<T>::max_sides> side;
+
+  [[nodiscard]] static sub_ring all_of(const opening<T>& o) noexcept {
+    sub_ring s{o, {}};
+    for (std::size_t k = 0; k < o.count; ++k) {
+      s.side[k] = static_cast<std::uint8_t>(k);
+    }
+    return s;
+  }
+  /// The sides from `first` through `last`, closed by a liquid gap.
+  [[nodiscard]] sub_ring part(std::size_t first, std::size_t last) const noexcept {
+    sub_ring s{};
+    for (std::size_t k = first;; k = ring.next(k)) {
+      const std::size_t n = s.ring.count++;
+      s.ring.sides[n] = ring.sides[k];
+      s.ring.gaps[n] = k == last ? gap_state::liquid : ring.gaps[k];
+      s.side[n] = side[k];
+      if (k == last) {
+        return s;
+      }
+    }
+  }
+};
+
+/// Radius at entry; at_neck: where the arc between two sides that are no neighbours is lost.
+template <real T>
+struct entry_root {
+  T radius;
+  entry_status reason;
+  bool at_neck = false;
+  std::size_t first = 0;
+  std::size_t second = 0;
+};
+
+template <real T>
+[[nodiscard]] entry_root<T> no_root(entry_status why) noexcept {
+  return {T(quiet_nan<T>), why};
+}
+
+/// No point of the triangle of the centres is free: every free stretch of a gap, and where there is none the corner
+/// between two discs, lies under the third side.
+template <real T>
+[[nodiscard]] bool covered(const ring_frame<T, 3>& f) noexcept {
+  using std::sqrt;
+  const auto under = [&](std::size_t k, const vec2<T>& p) {
+    const vec2<T> v = p - f.side(k).point;
+    return f.is_disc(k) ? dot(v, v) <= f.side(k).radius * f.side(k).radius : dot(f.side(k).normal, v) <= T(0);
+  };
+  bool all_overlap = true;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto& g = f.gaps[k];
+    const std::size_t third = f.previous(k);
+    if (g.between_lines) {
+      if (!under(third, g.base)) {
+        return false;
+      }
+      all_overlap = false;
+    } else if (g.width > T(0)) {
+      const std::size_t b = g.base_first ? k : f.next(k);
+      const vec2<T> near = g.base + g.axis * f.side(b).radius;
+      if (!under(third, near) || !under(third, near + g.axis * g.width)) {
+        return false;
+      }
+      all_overlap = false;
+    }
+  }
+  if (!all_overlap) {
+    return true;
+  }
+  // The deepest overlap may not leave a corner under the third side while another does not: one corner decides.
+  const auto& g = f.gaps[0];
+  const vec2<T> corner =
+      g.end == gap_end::corner ? g.base : g.base + g.axis * g.x0 + g.inner * sqrt(g.q < T(0) ? -g.q : T(0));
+  return under(2, corner);
+}
+
+/// Newton's iteration r ← A / P on the concave F = r P − A, at or above the least radius.
+template <std::floating_point T, std::size_t N>
+[[nodiscard]] entry_root<T> newton(const ring_frame<T, N>& f, T start) noexcept {
+  constexpr int most = 60;
+  const bool guessed = start > f.least;
+  T r = guessed ? start : f.least;
+  bool at_least = !guessed;
+  bool tested = false;  // the opening at the least radius
+  T last = T(0);
+  for (int i = 0; i < most; ++i) {
+    const auto s = f.section(r);
+    const T better = s.area / s.perimeter;
+    if (at_least) {
+      at_least = false;
+      tested = true;
+      if (N == 3 && !s.hole) {
+        return no_root<T>(r > T(0) ? entry_status::no_hole : entry_status::closed);
+      }
+      if (!(better >= r)) {
+        return no_root<T>(better < r ? entry_status::gap_limited : entry_status::not_converged);
+      }
+    } else if (!(s.perimeter > T(0)) || !(better > f.least)) {
+      at_least = true;
+      r = f.least;
+      last = T(0);
+      continue;
+    }
+    const T step = std::abs(better - r);
+    const T ratio = last > T(0) ? step / last : T(0.5);
+    // Converging quadratically, the next step would be about step (step/last)²; a small step that does not shrink is
+    // the rounding of A / P.
+    const bool done = step <= 4 * epsilon<T> * r ||
+                      (ratio < T(0.1) && step * ratio * ratio <= T(0.25) * epsilon<T> * r) ||
+                      (ratio > T(0.5) && step * step <= epsilon<T> * r * r);
+    if (done) {
+      if (N == 3 && !s.hole && !tested) {
+        at_least = true;
+        r = f.least;
+        last = T(0);
+        continue;
+      }
+      return {better, f.dry ? entry_status::dry_corner : entry_status::ok};
+    }
+    last = step;
+    r = better;
+  }
+  return no_root<T>(entry_status::not_converged);
+}
+
+template <std::floating_point T>
+[[nodiscard]] entry_root<T> root_of_three(const opening<T>& o, const contact<T>& wet) noexcept {
+  ring_frame<T, 3> f;
+  const auto sound = f.build(o, wet);
+  if (sound == entry_status::invalid_input || sound == entry_status::not_covered) {
+    return no_root<T>(sound);
+  }
+  if (covered(f)) {
+    return {T(0), entry_status::closed};
+  }
+  if (sound != entry_status::ok) {
+    return no_root<T>(sound);
+  }
+  const auto c = circle_between(
+      std::array<bounding_side2<T>, 3>{bounding(o.sides[0]), bounding(o.sides[1]), bounding(o.sides[2])});
+  const T start = c.reason == inscribed_status::ok ? T(0.575) * c.value.radius / std::sqrt(wet.cosine) : T(0);
+  return newton(f, start);
+}
+
+/// The largest radius at which a pair of sides that are no neighbours lets an arc span between them, where the line
+/// between them runs inside the ring: beyond it the opening falls into two.
+template <std::floating_point T>
+struct neck {
+  T radius = infinity<T>;
+  std::size_t first = 0;
+  std::size_t second = 0;
+};
+
+/// The frame of the gap between any two sides that are not both lines; the disc, or the first disc, is its first side.
+template <real T>
+[[nodiscard]] bool across(const opening_side<T>& s, const opening_side<T>& t, const contact<T>& wet,
+                          gap_frame<T>& g) noexcept {
+  if (s.kind == side_kind::line) {
+    return between_disc_and_line(t, s, true, wet, g);
+  }
+  return t.kind == side_kind::line ? between_disc_and_line(s, t, true, wet, g) : between_discs(s, t, wet, g);
+}
+
+template <std::floating_point T>
+[[nodiscard]] neck<T> narrowest_neck(const ring_frame<T, opening<T>::max_sides>& f) noexcept {
+  neck<T> best;
+  const auto inside = [&](std::size_t k, const vec2<T>& way) {
+    if (!f.is_disc(k)) {
+      return dot(f.side(k).normal, way) > T(0);
+    }
+    const bool after = cross(f.towards(k, f.next(k)), way) > T(0);
+    const bool before = cross(way, f.towards(k, f.previous(k))) > T(0);
+    return f.reflex[k] ? after || before : after && before;
+  };
+  for (std::size_t i = 0; i < f.count(); ++i) {
+    for (std::size_t j = i + 2; j < f.count() && f.next(j) != i; ++j) {
+      if (!f.is_disc(i) && !f.is_disc(j)) {
+        continue;
+      }
+      const std::size_t d = f.is_disc(i) ? i : j;
+      const std::size_t o = f.is_disc(i) ? j : i;
+      const vec2<T> way = f.towards(d, o);
+      if (!inside(d, way) || !inside(o, -way)) {
+        continue;
+      }
+      gap_frame<T> g;
+      const bool sound = across(f.side(i), f.side(j), f.wet, g);
+      const T r = sound ? g.least_radius() : T(0);
+      if (r < best.radius) {
+        best = {r, i, j};
+      }
+    }
+  }
+  return best;
+}
+
+/// The root of a ring of more than three sides, with the sides that its meniscus touches left in `s`.
+template <std::floating_point T>
+[[nodiscard]] entry_root<T> root_of_ring(sub_ring<T>& s, const contact<T>& wet) noexcept {
+  if (s.ring.count == 3) {
+    return root_of_three(s.ring, wet);
+  }
+  ring_frame<T, opening<T>::max_sides> f;
+  const auto sound = f.build(s.ring, wet);
+  if (sound != entry_status::ok) {
+    return no_root<T>(sound);
+  }
+  // A side that the meniscus does not reach lies in the liquid of the corner between its neighbours.
+  const auto hidden = [&](const T& r) {
+    const auto section = f.section(r);
+    std::size_t worst = f.count();
+    for (std::size_t k = 0; k < f.count(); ++k) {
+      if (section.wetted[k] < T(0) && (worst == f.count() || section.wetted[k] < section.wetted[worst])) {
+        worst = k;
+      }
+    }
+    return worst;
+  };
+  const auto without = [&](std::size_t k) {
+    auto rest = s.part(s.ring.next(k), s.ring.previous(k));
+    const auto root = root_of_ring(rest, wet);
+    s = rest;
+    return root;
+  };
+  if (const auto k = hidden(f.least); k != f.count()) {
+    return without(k);
+  }
+  const auto root = newton(f, T(0));
+  if (verdict_of(root.reason) != verdict::ok) {
+    return root;
+  }
+  if (const auto k = hidden(root.radius); k != f.count()) {
+    return without(k);
+  }
+  const auto n = narrowest_neck(f);
+  if (!(root.radius > n.radius)) {
+    return root;
+  }
+  // Two openings until the neck between them loses its arc; then the gas that waits there passes at once.
+  auto one = s.part(n.first, n.second);
+  auto two = s.part(n.second, n.first);
+  const auto r1 = root_of_ring(one, wet);
+  const auto r2 = root_of_ring(two, wet);
+  const bool ok1 = verdict_of(r1.reason) == verdict::ok && r1.radius >= n.radius;
+  const bool ok2 = verdict_of(r2.reason) == verdict::ok && r2.radius >= n.radius;
+  if (ok1 && (!ok2 || r1.radius >= r2.radius)) {
+    s = one;
+    return r1;
+  }
+  if (ok2) {
+    s = two;
+    return r2;
+  }
+  return n.radius > T(0) ? entry_root<T>{n.radius, root.reason, true, n.first, n.second}
+                         : no_root<T>(entry_status::no_hole);
+}
+
+}  // namespace detail
+
+/// Capillary pressure at which the non-wetting phase enters an opening, by the balance of Mayer, Stowe and Princen:
+/// the arc radius r = σ/p at which r (L_nw + cos θ L_ns) = A_nw.
+/// \par Units   lengths [m], surface tension [N/m], angle [rad], pressure [Pa]
+/// \par Domain  rings of 3 to 8 sides, discs and wall lines in any mix, gaps liquid or open; 0 ≤ θ < 90°. In the order of
+///              the tests: closed (the sides cover the opening), no_hole, gap_limited, ok or dry_corner. A side of a
+///              larger ring that lies behind an arc is left out; a ring whose opposite sides come so close that they hold
+///              an arc at the root is two openings until that arc is lost
+/// \par Accuracy  `stated_accuracy`, relative, where the radii are within 1e-3 of each other's size; 5e-9 within 1e-4 of
+///                the gap limit; radii 1 : 1 : x cost about ε/x
+/// \par Source  Mayer & Stowe, J. Colloid Sci. 20, 893 (1965); Princen, J. Colloid Interface Sci. 30, 69 (1969);
+///              Chareyre et al., EPJ Web Conf. 140, 09027 (2017), §2.3
+struct mayer_stowe_princen {
+  required<double> surface_tension;
+  double contact_angle = 0;
+
+  static constexpr double stated_accuracy = 1e-12;
+
+  template <real T>
+  [[nodiscard]] outcome<T, entry_status> entry_pressure(const opening<T>& o) const noexcept {
+    const auto root = solve(o);
+    if (root.reason == entry_status::closed) {
+      return {T(infinity<T>), root.reason};
+    }
+    return {T(tension<T>()) / root.radius, root.reason};
+  }
+
+  /// The gap that loses its arc first as the pressure rises, whatever the meniscus does then.
+  template <real T>
+  [[nodiscard]] outcome<arc_limit<T>, entry_status> first_arc_lost(const opening<T>& o) const noexcept {
+    if (!in_domain(o)) {
+      return {{T(quiet_nan<T>), 0}, entry_status::invalid_input};
+    }
+    detail::ring_frame<T, opening<T>::max_sides> f;
+    const auto sound = f.build(o, contact_of<T>());
+    if (sound == entry_status::invalid_input || sound == entry_status::not_covered) {
+      return {{T(quiet_nan<T>), 0}, sound};
+    }
+    std::size_t widest = 0;
+    T least = T(0);
+    for (std::size_t k = 0; k < o.count; ++k) {
+      const T r = f.gaps[k].least_radius();
+      if (r > least) {
+        least = r;
+        widest = k;
+      }
+    }
+    return {{least > T(0) ? T(tension<T>()) / least : T(infinity<T>), widest}, entry_status::ok};
+  }
+
+  /// The meniscus at entry in full.
+  template <std::floating_point T>
+  [[nodiscard]] outcome<entry_meniscus<T>, entry_status> meniscus(const opening<T>& o) const noexcept;
+
+  /// The derivative of the entry pressure with respect to the sides, for moving grains: −dp/dr (∂F/∂x) / P.
+  template <std::floating_point T>
+  [[nodiscard]] outcome<entry_sensitivity<T>, entry_status> derivative(const opening<T>& o) const noexcept;
+
+ private:
+  template <real T>
+  [[nodiscard]] underlying_t<T> tension() const noexcept {
+    return static_cast<underlying_t<T>>(surface_tension.get());
+  }
+  template <real T>
+  [[nodiscard]] detail::contact<T> contact_of() const noexcept {
+    const auto angle = static_cast<underlying_t<T>>(contact_angle);
+    return {T(std::cos(angle)), T(std::sin(angle)), T(angle)};
+  }
+  template <real T>
+  [[nodiscard]] bool in_domain(const opening<T>& o) const noexcept {
+    return detail::wets(surface_tension, contact_angle) && o.count >= 3 && o.count <= opening<T>::max_sides;
+  }
+  template <real T>
+  [[nodiscard]] detail::entry_root<T> solve(const opening<T>& o) const noexcept;
+};
+static_assert(gap_aware_entry_law<mayer_stowe_princen, double>);
+
+namespace detail {
+
+template <real T>
+[[nodiscard]] opening<underlying_t<T>> values_of(const opening<T>& o) noexcept {
+  opening<underlying_t<T>> v;
+  v.count = o.count;
+  for (std::size_t k = 0; k < o.count; ++k) {
+    const auto& s = o.sides[k];
+    v.sides[k] = {{value_of(s.point.x), value_of(s.point.y)},
+                  {value_of(s.normal.x), value_of(s.normal.y)},
+                  value_of(s.radius),
+                  s.kind};
+    v.gaps[k] = o.gaps[k];
+  }
+  return v;
+}
+
+/// One Newton step in T from the root of the values: exact first derivatives.
+template <real T>
+[[nodiscard]] T lifted(const opening<T>& o, const sub_ring<underlying_t<T>>& touched,
+                       const entry_root<underlying_t<T>>& root, const contact<T>& wet) noexcept {
+  opening<T> ring;
+  ring.count = touched.ring.count;
+  for (std::size_t k = 0; k < ring.count; ++k) {
+    ring.sides[k] = o.sides[touched.side[k]];
+    ring.gaps[k] = touched.ring.gaps[k];
+  }
+  if (root.at_neck) {
+    gap_frame<T> g;
+    static_cast<void>(across(ring.sides[root.first], ring.sides[root.second], wet, g));
+    return g.least_radius();
+  }
+  ring_frame<T, opening<T>::max_sides> f;
+  static_cast<void>(f.build(ring, wet));
+  const auto s = f.section(T(root.radius));
+  return s.area / s.perimeter;
+}
+
+/// dF/d(displacement of the end of side k's wetted arc), the rest of the boundary being carried along; `leaves`: the
+/// end where the gap after the side begins.
+template <std::floating_point T, std::size_t N>
+[[nodiscard]] vec2<T> end_force(const ring_frame<T, N>& f, const gas_section<T, N>& s, std::size_t k, bool leaves,
+                                const T& r) noexcept {
+  const std::size_t gap = leaves ? k : f.previous(k);
+  const gap_frame<T>& g = f.gaps[gap];
+  const vec2<T> point = leaves ? s.leave[k] : s.enter[gap];
+  if (g.end == gap_end::arc) {
+    const vec2<T> centre = (leaves ? s.from[gap] : s.to[gap]) - f.side(k).point;
+    const vec2<T> pull =
+        f.is_disc(k) ? centre - point
+                     : f.side(k).normal * (r * f.wet.cosine) + vec2<T>{f.side(k).normal.y, -f.side(k).normal.x} *
+                                                                   ((leaves ? T(-1) : T(1)) * r * f.wet.sine);
+    return left_of(leaves ? pull : -pull);
+  }
+  const std::size_t other = leaves ? f.next(k) : gap;
+  if (g.end == gap_end::corner) {
+    const auto forward = [&](std::size_t side) -> vec2<T> {
+      const vec2<T> n = f.normal_at(side, g.base);
+      return vec2<T>{n.y, -n.x} * (T(1) / norm(n));
+    };
+    const vec2<T> mine = forward(k);
+    const vec2<T> theirs = forward(other);
+    const T sine = leaves ? cross(mine, theirs) : cross(theirs, mine);
+    return left_of(mine - theirs) * (-r * f.wet.cosine / sine);
+  }
+  if (!f.is_disc(k)) {
+    return {T(0), T(0)};
+  }
+  if (!f.is_disc(other)) {
+    return g.inner * (g.width - r * f.wet.cosine);
+  }
+  const T mine = f.side(k).radius;
+  const T theirs = f.side(other).radius;
+  return g.inner * ((r * f.wet.cosine * (mine - theirs) + T(0.5) * g.width * (g.span + theirs - mine)) / g.span);
+}
+
+}  // namespace detail
+
+template <real T>
+detail::entry_root<T> mayer_stowe_princen::solve(const opening<T>& o) const noexcept {
+  using value_type = underlying_t<T>;
+  if (!in_domain(o)) {
+    return detail::no_root<T>(entry_status::invalid_input);
+  }
+  const auto wet = contact_of<value_type>();
+  if constexpr (std::floating_point<T>) {
+    if (o.count == 3) {
+      return detail::root_of_three(o, wet);
+    }
+    auto touched = detail::sub_ring<T>::all_of(o);
+    return detail::root_of_ring(touched, wet);
+  } else {
+    auto touched = detail::sub_ring<value_type>::all_of(detail::values_of(o));
+    const auto root = detail::root_of_ring(touched, wet);
+    if (verdict_of(root.reason) != verdict::ok) {
+      return {T(root.radius), root.reason};
+    }
+    return {detail::lifted(o, touched, root, contact_of<T>()), root.reason};
+  }
+}
+
+template <std::floating_point T>
+outcome<entry_meniscus<T>, entry_status> mayer_stowe_princen::meniscus(const opening<T>& o) const noexcept {
+  using std::atan2;
+  entry_meniscus<T> m{};
+  m.radius = m.area = m.meniscus_length = m.wetted_length = quiet_nan<T>;
+  if (!in_domain(o)) {
+    return {m, entry_status::invalid_input};
+  }
+  auto touched = detail::sub_ring<T>::all_of(o);
+  const auto root = detail::root_of_ring(touched, contact_of<T>());
+  if (root.reason == entry_status::closed) {
+    m.radius = m.area = m.meniscus_length = m.wetted_length = T(0);
+  }
+  if (verdict_of(root.reason) != verdict::ok) {
+    return {m, root.reason};
+  }
+  detail::ring_frame<T, opening<T>::max_sides> f;
+  static_cast<void>(f.build(touched.ring, contact_of<T>()));
+  const auto s = f.section(root.radius);
+  m.radius = root.radius;
+  m.area = s.area;
+  m.meniscus_length = s.meniscus_length;
+  m.wetted_length = s.wetted_length;
+  m.count = f.count();
+  for (std::size_t k = 0; k < f.count(); ++k) {
+    m.side[k] = touched.side[k];
+    m.wetted[k] = s.wetted[k];
+    if (f.gaps[k].end == detail::gap_end::arc) {
+      const vec2<T> a = f.side(k).point + s.leave[k] - s.from[k];
+      const vec2<T> b = f.side(f.next(k)).point + s.enter[k] - s.from[k];
+      m.arc[k] = atan2(cross(a, b), dot(a, b));
+    }
+  }
+  return {m, root.reason};
+}
+
+template <std::floating_point T>
+outcome<entry_sensitivity<T>, entry_status> mayer_stowe_princen::derivative(const opening<T>& o) const noexcept {
+  entry_sensitivity<T> d;
+  d.pressure = quiet_nan<T>;
+  d.by_centre.fill({quiet_nan<T>, quiet_nan<T>});
+  d.by_radius.fill(quiet_nan<T>);
+  if (!in_domain(o)) {
+    return {d, entry_status::invalid_input};
+  }
+  const auto wet = contact_of<T>();
+  auto touched = detail::sub_ring<T>::all_of(o);
+  const auto root = detail::root_of_ring(touched, wet);
+  if (verdict_of(root.reason) != verdict::ok) {
+    return {d, root.reason};
+  }
+  d.by_centre.fill({});
+  d.by_radius.fill(T(0));
+  const T r = root.radius;
+  d.pressure = tension<T>() / r;
+  const T per_radius = -tension<T>() / (r * r);  // dp/dr
+  if (root.at_neck) {
+    // ρ + ρ' = distance; for a line ρ' = r cos θ.
+    const std::array<std::size_t, 2> ends{root.first, root.second};
+    detail::gap_frame<T> g;
+    static_cast<void>(detail::across(touched.ring.sides[ends[0]], touched.ring.sides[ends[1]], wet, g));
+    T by_r = T(0);
+    std::array<T, 2> by_size{};
+    for (std::size_t e = 0; e < 2; ++e) {
+      const auto& s = touched.ring.sides[ends[e]];
+      if (s.kind == side_kind::line) {
+        by_r += wet.cosine;
+        continue;
+      }
+      const T along = s.radius + r * wet.cosine;
+      const T across = r * wet.sine;
+      const T rho = std::sqrt(along * along + across * across);
+      by_r += (r + s.radius * wet.cosine) / rho;
+      by_size[e] = along / rho;
+    }
+    const vec2<T> apart = touched.ring.sides[ends[0]].kind == side_kind::disc && g.base_first ? -g.axis : g.axis;
+    for (std::size_t e = 0; e < 2; ++e) {
+      const std::size_t k = touched.side[ends[e]];
+      d.by_centre[k] = (e == 0 ? apart : -apart) * (per_radius / by_r);
+      d.by_radius[k] = -by_size[e] * per_radius / by_r;
+    }
+    return {d, root.reason};
+  }
+  detail::ring_frame<T, opening<T>::max_sides> f;
+  static_cast<void>(f.build(touched.ring, wet));
+  const auto s = f.section(r);
+  const T scale = -per_radius / s.perimeter;
+  for (std::size_t k = 0; k < f.count(); ++k) {
+    const std::size_t p = f.previous(k);
+    const vec2<T> leave = detail::end_force(f, s, k, true, r);
+    const vec2<T> enter = detail::end_force(f, s, k, false, r);
+    const vec2<T> force = detail::left_of(s.leave[k] - s.enter[p]) + leave + enter;
+    const std::size_t at = touched.side[k];
+    if (f.is_disc(k)) {
+      const T R = f.side(k).radius;
+      d.by_centre[at] = force * scale;
+      d.by_radius[at] =
+          ((R + r * wet.cosine) * s.wetted[k] + (dot(leave, s.leave[k]) + dot(enter, s.enter[p])) / R) * scale;
+    } else {
+      d.by_centre[at] = f.side(k).normal * (dot(force, f.side(k).normal) * scale);
+    }
+  }
+  return {d, root.reason};
+}
+
+}  // namespace tetrapore::inline TETRAPORE_ABI
