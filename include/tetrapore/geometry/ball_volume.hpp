@@ -49,37 +49,39 @@ template <real T>
 
 namespace detail {
 
+/// An edge of a face in the plane of the face, seen from the foot of the ball's centre.
+template <real T>
+struct edge_from_foot {
+  T distance;    ///< of its line, positive when the edge runs counter-clockwise about the foot
+  T begin, end;  ///< positions along the line, counted from the point nearest to the foot
+  T begin_range, end_range;  ///< distances of its ends from the centre
+};
+
 /// Volume between the centre of a ball and one face, inside the ball, signed by the side of the face on which the
-/// centre lies. With h the distance of the plane, each edge closes a triangle with the foot of the centre; of its line,
-/// the part inside the disc of radius a = sqrt(r² - h²) bounds a flat pyramid, the parts outside bound a cone of the ball
-/// that the disc cuts.
-/// \param p     vertices, relative to the centre \param l  their distances
+/// centre lies. With h the distance of the plane and a = sqrt(r² - h²) the radius of the disc that it cuts: inside the
+/// disc lies a pyramid, outside a cone of the ball.
+/// \param p     vertices, relative to the centre
+/// \param l     their distances
 /// \param edges directed edges of the face, in any order
-template <real T, class Edges>
-[[nodiscard]] T cone_in_ball(const T& r, const vec3<T>* p, const T* l, const vec3<T>& normal,
-                             const Edges& edges) noexcept {
+template <real T>
+[[nodiscard]] T cone_in_ball(const T& r, const workspace<vec3<T>, polyhedron<T>::max_vertices>& p,
+                             const workspace<T, polyhedron<T>::max_vertices>& l, const vec3<T>& normal,
+                             std::span<const typename polyhedron<T>::directed_edge> edges) noexcept {
   using std::atan2;
   using std::sqrt;
+  bool all_inside = true;
+  for (const auto& e : edges) {
+    if (l[e.from] == T(0)) {
+      return T(0);  // the face passes through the centre
+    }
+    all_inside = all_inside && l[e.from] <= r;
+  }
   const std::size_t first = edges.front().from;
   const vec3<T>& base = p[first];
   const T signed_height = dot(base, normal);
   const T h = magnitude(signed_height);
   if (h == T(0)) {
     return T(0);
-  }
-  const T r3 = r * r * r / T(3);
-  if (h >= r) {  // the plane misses the ball
-    T omega(0);
-    for (const auto& e : edges) {
-      if (e.from != first && e.to != first) {
-        omega += solid_angle(base, p[e.from], p[e.to], l[first], l[e.from], l[e.to]);
-      }
-    }
-    return r3 * omega;
-  }
-  bool all_inside = true;
-  for (const auto& e : edges) {
-    all_inside = all_inside && l[e.from] <= r;
   }
   if (all_inside) {
     T six_volumes(0);
@@ -88,13 +90,28 @@ template <real T, class Edges>
     }
     return signed_height * six_volumes / T(6);
   }
+  const T r3 = r * r * r / T(3);
+  const auto whole_cone = [&]() noexcept {
+    T omega(0);
+    for (const auto& e : edges) {
+      if (e.from != first && e.to != first) {
+        omega += solid_angle(base, p[e.from], p[e.to], l[first], l[e.from], l[e.to]);
+      }
+    }
+    return r3 * omega;
+  };
+  if (h >= r) {
+    return whole_cone();
+  }
+
   const T a2 = (r - h) * (r + h);
+  const T a = sqrt(a2);
   const T h2 = h * h;
-  // Outside the disc a triangle spans the cone r³/3 (h/r Δφ - Δψ) and the pyramid h a²/6 Δφ. For a distant plane the
-  // difference is taken analytically instead: the whole solid angle of the triangle, less its share of the cap.
-  const bool distant = h + h > r;
-  const T per_angle = distant ? -(r - h) * (r - h) * (r + r + h) / T(6) : h * (T(3) * r * r - h2) / T(6);
-  T volume(0);
+  workspace<edge_from_foot<T>, polyhedron<T>::max_edges> side;
+  std::size_t count = 0;
+  bool meets_disc = false;
+  bool around = true;  // the disc lies within the face
+  const T turn_sense(signed_height < T(0) ? -1 : 1);
   for (const auto& e : edges) {
     const vec3<T>& from = p[e.from];
     const vec3<T> edge = p[e.to] - from;
@@ -103,34 +120,57 @@ template <real T, class Edges>
       continue;
     }
     const T d = dot(normal, cross(from, edge)) / length;
-    const T s0 = dot(from, edge) / length;
-    const T s1 = s0 + length;
-    const auto outer = [&](const T& sa, const T& sb, const T& ra, const T& rb) noexcept {
-      const T turn = atan2(d * (sb - sa), d * d + sa * sb);
+    const T begin = dot(from, edge) / length;
+    const T end = begin + length;
+    side[count++] = {d, begin, end, l[e.from], l[e.to]};
+    around = around && d >= a;
+    const T w2 = a2 - d * d;
+    meets_disc = meets_disc || l[e.from] < r || l[e.to] < r || (w2 > T(0) && begin < T(0) && end > T(0));
+  }
+  if (count == 0) {
+    return T(0);
+  }
+  if (!meets_disc) {
+    const T cap = around ? (r - h) * (r - h) * (r + r + h) * T(pi<T>) / T(3) : T(0);
+    return whole_cone() - turn_sense * cap;
+  }
+
+  // Each edge closes a triangle with the foot. On the part of its line inside the disc the triangle carries a pyramid; on
+  // the parts outside a cone r³/3 (h/r Δφ - Δψ) and a pyramid h a²/6 Δφ, with φ the angle at the foot and
+  // tan ψ = h s / (d R), s along the line and R the distance from the centre. For a distant plane the difference is taken
+  // analytically instead: the whole solid angle of the triangle, less its share of the cap.
+  const bool distant = h + h > r;
+  const T per_angle = distant ? -(r - h) * (r - h) * (r + r + h) / T(6) : h * (T(3) * r * r - h2) / T(6);
+  T volume(0);
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto& [d, begin, end, begin_range, end_range] = side[k];
+    const T d2 = d * d;
+    const auto outer = [&, &d = d](const T& sa, const T& sb, const T& ra, const T& rb) noexcept {
+      const T turn = atan2(d * (sb - sa), d2 + sa * sb);
       if (distant) {
-        const T omega = T(2) * atan2(d * (sb - sa), ra * rb + h * (ra + rb) + h2 + d * d + sa * sb);
+        const T omega = T(2) * atan2(d * (sb - sa), ra * rb + h * (ra + rb) + h2 + d2 + sa * sb);
         volume += r3 * omega + per_angle * turn;
       } else {
-        const T run = sa * sb > T(0) ? (h2 + d * d) * (sb - sa) * (sb + sa) / (ra * sb + rb * sa) : ra * sb - rb * sa;
-        const T psi = atan2(h * d * run, d * d * ra * rb + h2 * sa * sb);
+        const T run = sa * sb > T(0) ? (h2 + d2) * (sb - sa) * (sb + sa) / (ra * sb + rb * sa) : ra * sb - rb * sa;
+        const T psi = atan2(h * d * run, d2 * ra * rb + h2 * sa * sb);
         volume += per_angle * turn - r3 * psi;
       }
     };
-    const T w2 = a2 - d * d;
+    const T w2 = a2 - d2;
     const T w = w2 > T(0) ? sqrt(w2) : T(0);
-    if (!(w2 > T(0)) || s0 >= w || s1 <= -w) {
-      outer(s0, s1, l[e.from], l[e.to]);
+    if (!(w2 > T(0)) || begin >= w || end <= -w) {
+      outer(begin, end, begin_range, end_range);
       continue;
     }
-    if (s0 < -w) {
-      outer(s0, -w, l[e.from], r);
+    if (begin < -w) {
+      outer(begin, -w, begin_range, r);
     }
-    if (s1 > w) {
-      outer(w, s1, r, l[e.to]);
+    if (end > w) {
+      outer(w, end, r, end_range);
     }
-    volume += h * d * (smaller(s1, w) - larger(s0, -w)) / T(6);
+    volume += h * d * (smaller(end, w) - larger(begin, -w)) / T(6);
   }
-  return signed_height < T(0) ? -volume : volume;
+  return turn_sense * volume;
 }
 
 }  // namespace detail
@@ -144,8 +184,8 @@ template <real T, class Edges>
 /// \par Source  divergence theorem; the arc integral is asin(h sin φ / sqrt(h² + d²)), written as an atan2
 template <real T>
 [[nodiscard]] T ball_volume(const sphere<T>& ball, const polyhedron<T>& body) noexcept {
-  std::array<vec3<T>, polyhedron<T>::max_vertices> p;
-  std::array<T, polyhedron<T>::max_vertices> l;
+  detail::workspace<vec3<T>, polyhedron<T>::max_vertices> p;
+  detail::workspace<T, polyhedron<T>::max_vertices> l;
   const auto vertices = body.vertices();
   for (std::size_t k = 0; k < vertices.size(); ++k) {
     p[k] = vertices[k] - ball.centre;
@@ -153,7 +193,7 @@ template <real T>
   }
   T volume(0);
   for (std::size_t f = 0; f < body.face_count(); ++f) {
-    volume += detail::cone_in_ball(ball.radius, p.data(), l.data(), body.normal(f), body.edges(f));
+    volume += detail::cone_in_ball<T>(ball.radius, p, l, body.normal(f), body.edges(f));
   }
   return volume;
 }

@@ -7,11 +7,34 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 
 /// \file
 /// A small convex polyhedron that can be clipped, without allocation.
 
 namespace tetrapore::inline TETRAPORE_ABI {
+
+namespace detail {
+
+/// Storage for up to N values of a trivially copyable type, not initialised: a polyhedron is made and dropped often, and
+/// mostly empty.
+template <class T, std::size_t N>
+class workspace {
+ public:
+  workspace() noexcept {}  // NOLINT(modernize-use-equals-default): leaves the values alone
+  [[nodiscard]] T& operator[](std::size_t k) noexcept { return values_[k]; }
+  [[nodiscard]] const T& operator[](std::size_t k) const noexcept { return values_[k]; }
+  [[nodiscard]] T* data() noexcept { return values_; }
+  [[nodiscard]] const T* data() const noexcept { return values_; }
+
+ private:
+  static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
+  union {
+    T values_[N];
+  };
+};
+
+}  // namespace detail
 
 /// Faces as closed sets of directed edges (counter-clockwise from outside) over shared vertices. All that is asked of
 /// it (volume, the volume of a ball inside) is a sum over directed edges, so the order of the edges within a face does
@@ -85,7 +108,7 @@ class polyhedron {
   /// Keeps the side that the normal of the plane points to. A cut that does not fit leaves the polyhedron empty and
   /// answers too_complex; a distance that is NaN answers not_finite.
   [[nodiscard]] geometry_status clip(const plane<T>& keep) noexcept {
-    std::array<T, max_vertices> distance;
+    detail::workspace<T, max_vertices> distance;
     std::size_t inside = 0;
     for (std::size_t v = 0; v < vertex_count_; ++v) {
       distance[v] = keep.distance(vertices_[v]);
@@ -104,16 +127,16 @@ class polyhedron {
     }
     const polyhedron whole = *this;
     clear();
-    std::array<std::uint8_t, max_vertices> kept;
+    detail::workspace<std::uint8_t, max_vertices> kept;
     for (std::size_t v = 0; v < whole.vertex_count_; ++v) {
       if (distance[v] >= T(0)) {
         kept[v] = static_cast<std::uint8_t>(vertex_count_);
         vertices_[vertex_count_++] = whole.vertices_[v];
       }
     }
-    std::array<cut, max_vertices> cuts;
+    detail::workspace<cut, max_vertices> cuts;
     std::size_t cut_count = 0;
-    std::array<directed_edge, max_edges> cap;
+    detail::workspace<directed_edge, max_edges> cap;
     std::size_t cap_count = 0;
     bool fits = true;
     const auto crossing = [&](std::uint8_t in, std::uint8_t out) noexcept -> std::uint8_t {
@@ -145,8 +168,8 @@ class polyhedron {
     };
     for (std::size_t f = 0; f < whole.face_count_ && fits; ++f) {
       const std::size_t begin = edge_count_;
-      std::array<std::uint8_t, max_vertices> exits;
-      std::array<std::uint8_t, max_vertices> entries;
+      detail::workspace<std::uint8_t, max_vertices> exits;
+      detail::workspace<std::uint8_t, max_vertices> entries;
       std::size_t exit_count = 0;
       std::size_t entry_count = 0;
       for (const auto& e : whole.edges(f)) {
@@ -230,9 +253,9 @@ class polyhedron {
     }
   }
 
-  std::array<vec3<T>, max_vertices> vertices_;
-  std::array<face_record, max_faces> faces_;
-  std::array<directed_edge, max_edges> edges_;
+  detail::workspace<vec3<T>, max_vertices> vertices_;
+  detail::workspace<face_record, max_faces> faces_;
+  detail::workspace<directed_edge, max_edges> edges_;
   std::size_t vertex_count_ = 0;
   std::size_t face_count_ = 0;
   std::size_t edge_count_ = 0;

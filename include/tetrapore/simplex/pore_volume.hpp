@@ -164,6 +164,22 @@ struct cell_frame {
     return solid_angle(towards(i, others[i][0]), towards(i, others[i][1]), towards(i, others[i][2]));
   }
 
+  /// Angle between the two facets at the edge from grain i to grain j.
+  [[nodiscard]] T edge_angle(std::size_t i, std::size_t j) const noexcept {
+    using std::atan2;
+    std::array<std::size_t, 2> rest{};
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (k != i && k != j) {
+        rest[count++] = k;
+      }
+    }
+    const vec3<T> edge = centres[j] - centres[i];
+    const vec3<T> u = cross(edge, towards(i, rest[0]));
+    const vec3<T> v = cross(edge, towards(i, rest[1]));
+    return atan2(norm(cross(u, v)), dot(u, v));
+  }
+
   [[nodiscard]] T sectors() const noexcept {
     T sum(0);
     for (std::size_t i = 0; i < G; ++i) {
@@ -251,7 +267,28 @@ template <real T, class F>
   }
 }
 
-/// Solid volume in a cell: own grains by sectors where that is exact, everything else by the kernel.
+/// The lens that two overlapping balls share, when the radical plane lies between their centres: then it fits into the
+/// ball over its rim.
+template <real T>
+struct lens {
+  vec3<T> middle;  ///< centre of the rim
+  T rim2;          ///< squared radius of the rim
+  bool shallow;
+
+  lens(const sphere<T>& a, const sphere<T>& b) noexcept {
+    const vec3<T> d = b.centre - a.centre;
+    const T q = norm2(d);
+    const T t = (T(1) + (a.radius - b.radius) * ((a.radius + b.radius) / q)) * T(0.5);  // share of the distance
+    middle = a.centre + d * t;
+    rim2 = a.radius * a.radius - t * t * q;
+    shallow = q > T(0) && t > T(0) && t < T(1) && rim2 > T(0);
+  }
+};
+
+/// Solid volume in a cell. While no three balls meet, the union is the sum of the balls less the sum of their lenses, and
+/// most of these are known without the kernel: a grain that reaches neither its opposite facet nor a wall fills a sector;
+/// the lens of two such grains fills its share of the angle at their edge, as it can leave the cell only through a facet
+/// that one of the two would reach.
 template <real T, std::size_t G>
 [[nodiscard]] outcome<T, geometry_status> solid_volume(const cell_frame<T, G>& cell,
                                                        std::span<const sphere<T>> intruders) noexcept {
@@ -259,28 +296,58 @@ template <real T, std::size_t G>
   const auto ball = [&](std::size_t k) noexcept {
     return k < G ? sphere<T>{cell.centres[k], cell.body.grains[k].radius} : cell.local(intruders[k - G]);
   };
+  std::array<bool, G> sector;
+  bool need_kernel = n > G;
+  for (std::size_t i = 0; i < G; ++i) {
+    sector[i] = !cell.reaches_wall(i) && !cell.reaches_facet(i);
+    need_kernel = need_kernel || !sector[i];
+  }
   polyhedron<T> whole;
-  bool built = false;
+  if (need_kernel) {
+    whole = cell.solid();
+  }
   T solid(0);
   for (std::size_t i = 0; i < n; ++i) {
-    bool sector = i < G && !cell.reaches_wall(i) && !cell.reaches_facet(i);
-    for (std::size_t j = 0; j < n && sector; ++j) {
-      sector = j == i || overlap_of(ball(i), ball(j), i < j) == overlap::none;
+    const sphere<T> a = ball(i);
+    if (i < G && sector[i]) {
+      solid += a.radius * a.radius * a.radius * cell.angle(i) / T(3);
+    } else if (!apart(a, whole)) {
+      solid += ball_volume(a, whole);
     }
-    if (sector) {
-      const T r = cell.body.grains[i].radius;
-      solid += r * r * r * cell.angle(i) / T(3);
-      continue;
+    for (std::size_t j = i + 1; j < n; ++j) {
+      const sphere<T> b = ball(j);
+      const T distance2 = norm2(b.centre - a.centre);
+      if (!overlaps(distance2, a.radius, b.radius)) {
+        continue;
+      }
+      const lens<T> common(a, b);
+      bool alone = common.shallow;
+      for (std::size_t k = 0; k < n && alone; ++k) {
+        if (k != i && k != j) {
+          const sphere<T> c = ball(k);
+          using std::sqrt;
+          const T reach = c.radius + sqrt(common.rim2);
+          alone = norm2(common.middle - c.centre) >= reach * reach;
+        }
+      }
+      if (!alone) {
+        return union_volume(need_kernel ? whole : cell.solid(), n, ball);
+      }
+      if (j < G && sector[i] && sector[j]) {
+        using std::sqrt;
+        solid -= lens_volume(a.radius, b.radius, sqrt(distance2)) * (cell.edge_angle(i, j) / (T(2) * T(pi<T>)));
+      } else if (!apart(a, whole) && !apart(b, whole)) {
+        polyhedron<T> beyond = whole;
+        polyhedron<T> before = whole;
+        const plane<T> cut = radical_plane(a, b);  // normal towards a
+        const geometry_status fit = beyond.clip({cut.point, -cut.normal});
+        const geometry_status fits = before.clip(cut);
+        if (fit != geometry_status::ok || fits != geometry_status::ok) {
+          return refuse<T>(fit != geometry_status::ok ? fit : fits);
+        }
+        solid -= ball_volume(a, beyond) + ball_volume(b, before);
+      }
     }
-    if (!built) {
-      whole = cell.solid();
-      built = true;
-    }
-    const auto share = share_of(whole, n, ball, i);
-    if (!share.ok()) {
-      return share;
-    }
-    solid += share.value;
   }
   return checked(solid);
 }
