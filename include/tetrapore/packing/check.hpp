@@ -127,13 +127,13 @@ inline void check_distinct(std::span<const sphere<double>> grains, const domain&
 
 /// Refuses a set of grains that cannot be triangulated, or that its box contradicts. Checks, in this order: the box; at
 /// least 4 grains; finite centres, finite radii above 0, centres on the inner side of every wall (a grain may
-/// protrude); no two grains at one place, modulo the box along periodic axes; centres that span a volume.
+/// protrude); centres that span a volume. Grains at one place pass: a triangulation names them as hidden.
 /// An unbounded domain has no box to be outside of. Indices count from 0.
 /// \par Units  [m]
 /// \par Accuracy  equality of places is exact; "one plane" means to the rounding of the coordinates, so that a packing
 /// far from the origin is judged by the digits it still has
 /// \throw packing_error  names the grain (or the box), the value and what was expected
-inline void check(std::span<const sphere<double>> grains, const domain& d) {
+inline void check_triangulable(std::span<const sphere<double>> grains, const domain& d) {
   constexpr std::array<const char*, 3> axis_name{"x", "y", "z"};
   bool bounded = false;
   for (const auto kind : d.faces) {
@@ -170,8 +170,14 @@ inline void check(std::span<const sphere<double>> grains, const domain& d) {
       }
     }
   }
-  detail::check_distinct(grains, d);
   detail::check_not_flat(grains);
+}
+
+/// The same, and no two grains at one place, modulo the box along periodic axes.
+/// \throw packing_error  names the grain (or the box), the value and what was expected
+inline void check(std::span<const sphere<double>> grains, const domain& d) {
+  check_triangulable(grains, d);
+  detail::check_distinct(grains, d);
 }
 
 /// The same for a packing and its box, with walls on the axes that are not periodic unless `walls` is false.

@@ -27,7 +27,7 @@ struct random_packing_options {
   std::array<bool, 3> periodic{};            ///< the other axes have walls
   vec3<double> aspect{1.0, 1.0, 1.0};        ///< proportions of the box
   std::uint64_t seed = 1;
-  double gap = 1e-6;                         ///< near-contacts are between 0 and this times the radii apart
+  double gap = 1e-6;                         ///< near-contacts are apart by ½ to 1 times this, over the sum of radii
   std::size_t most_iterations = 200000;
 };
 
@@ -54,7 +54,7 @@ class overlap_relaxation {
     smallest_ = radii.smallest;
   }
 
-  /// True when no two spheres overlap by more than they were inflated; false when they jam, or time is up.
+  /// True when no two spheres overlap by more than half of their inflation; false when they jam, or time is up.
   bool relax(std::size_t most_iterations, random_packing_report& report) {
     // FIRE, with time in units of sqrt(mass / stiffness): the stiffest contact network has a period near 2.
     constexpr double largest_step = 0.45;
@@ -170,10 +170,10 @@ class overlap_relaxation {
     moved_ = 0;
   }
 
-  /// Forces, and the largest overlap beyond the inflation, over the sum of radii.
+  /// Forces, and the largest overlap beyond half of the inflation.
   double push() {
     std::fill(force_.begin(), force_.end(), vec3<double>{});
-    const double allowed = inflation_ / (1.0 + inflation_);
+    const double allowed = 0.5 * inflation_ / (1.0 + inflation_);
     double worst = 0;
     const auto* grains = p_.grains.data();
     for (std::size_t i = 0; i < p_.grains.size(); ++i) {
@@ -251,11 +251,11 @@ inline std::vector<vec3<double>> random_points(std::size_t n, const box& b, rand
 
 /// A dense random packing of grains with the given radii, in a box whose volume follows from the solid fraction; its
 /// lower corner is the origin. Random points become soft spheres of the final size, slightly inflated, which relax until
-/// no two overlap by more than the inflation. The radii are placed at random, and keep their values exactly.
+/// no two overlap by more than half of the inflation. The radii are placed at random, and keep their values exactly.
 /// \par Units  [m]
 /// \par Domain  solid fractions below jamming: up to about 0.62 for a box of 10,000 grains of a narrow distribution, less
 /// for few grains between walls, more for wide distributions; periodic axes longer than two of the largest diameters
-/// \par Accuracy  no overlap of grains or walls above 1e-12 of the radius. The same radii and options give the same
+/// \par Accuracy  no overlap; the smallest gap is half of options.gap. The same radii and options give the same
 /// bits, with a compiler that does not fuse multiply and add
 /// \par Source  minimiser: Bitzek, Koskinen, Gähler, Moseler & Gumbsch, Structural relaxation made simple, PRL 97 (2006)
 /// \throw parameter_error  an option outside its domain
@@ -315,7 +315,7 @@ inline packing random_packing(std::span<const double> radii, const random_packin
     }
   }
   const auto overlap = largest_overlap(p);
-  if (!apart || overlap.grains > 1e-12 || overlap.walls > 1e-12) {
+  if (!apart || overlap.grains > 0 || overlap.walls > 0) {
     throw packing_error("random packing of solid fraction " + std::to_string(phi),
                         "an overlap of " + std::to_string(std::max(overlap.grains, overlap.walls)) + " radii after " +
                             std::to_string(counted.iterations) + " iterations",
