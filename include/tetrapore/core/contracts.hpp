@@ -15,8 +15,9 @@
 
 #if TETRAPORE_CONTRACTS
 #define TETRAPORE_ABI checked
-#define TETRAPORE_EXPECTS(condition, message)                                                                         \
-  ((condition) ? static_cast<void>(0) : ::tetrapore::detail::contract_violation(__FILE__, __LINE__, #condition, message))
+#define TETRAPORE_EXPECTS(condition, message) \
+  ((condition) ? static_cast<void>(0)         \
+               : ::tetrapore::detail::contract_violation(__FILE__, __LINE__, #condition, message))
 #else
 #define TETRAPORE_ABI unchecked
 #define TETRAPORE_EXPECTS(condition, message) static_cast<void>(0)

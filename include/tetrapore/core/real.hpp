@@ -35,11 +35,11 @@ template <std::floating_point T>
 /// Semantics: an ordered field up to rounding; a dual number compares by value.
 /// Models: float, double, long double; a dual number.
 template <class T>
-concept real = std::copyable<T> && std::floating_point<underlying_t<T>> && std::constructible_from<T, underlying_t<T>> &&
-               requires(const T a, const T b) {
+concept real = std::copyable<T> && std::floating_point<underlying_t<T>> &&
+               std::constructible_from<T, underlying_t<T>> && requires(const T a, const T b) {
                  { a + b } -> std::convertible_to<T>;
                  { a - b } -> std::convertible_to<T>;
-                 { a * b } -> std::convertible_to<T>;
+                 { a* b } -> std::convertible_to<T>;
                  { a / b } -> std::convertible_to<T>;
                  { -a } -> std::convertible_to<T>;
                  { a < b } -> std::convertible_to<bool>;

@@ -15,7 +15,7 @@ template <class T>
 class required {
  public:
   required() = delete;
-  constexpr required(T value) noexcept : value_(std::move(value)) {}  // NOLINT(google-explicit-constructor)
+  constexpr required(T value) noexcept : value_(std::move(value)) {}             // NOLINT(google-explicit-constructor)
   [[nodiscard]] constexpr operator const T&() const noexcept { return value_; }  // NOLINT(google-explicit-constructor)
   [[nodiscard]] constexpr const T& get() const noexcept { return value_; }
 

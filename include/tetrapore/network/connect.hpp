@@ -61,8 +61,8 @@ inline void walls_last(cell& c) noexcept {
     }
     bool found = false;
     for (std::size_t m = 0; m < 4 && !found; ++m) {
-      found = m != j && b.vertices[m] == a.vertices[i] &&
-              (a.vertices[i].is_wall() || b.images[m] + shift == a.images[i]);
+      found =
+          m != j && b.vertices[m] == a.vertices[i] && (a.vertices[i].is_wall() || b.images[m] + shift == a.images[i]);
     }
     if (!found) {
       return false;
@@ -169,7 +169,8 @@ struct facet_match {
       } else {
         const auto match = detail::match_facet(c, static_cast<std::uint32_t>(i), k, cells[other], periodic);
         if (match.slot == 4) {
-          throw network_error(detail::name_of_facet(i, k), "a neighbour (" + std::to_string(other) + ") without that facet",
+          throw network_error(detail::name_of_facet(i, k),
+                              "a neighbour (" + std::to_string(other) + ") without that facet",
                               "mutual neighbours that share three vertices");
         }
         if (other == i && match.slot == k) {

@@ -83,8 +83,8 @@ struct vertex_pair {
         vertex u = net.vertices(p)[a];
         vertex v = net.vertices(p)[b];
         image at = v.is_wall() || u.is_wall() ? image{} : net.image_of(p, b) - net.image_of(p, a);
-        const bool swap = (u.is_wall() && !v.is_wall()) || (u.is_wall() == v.is_wall() && v < u) ||
-                          (u == v && at < image{});
+        const bool swap =
+            (u.is_wall() && !v.is_wall()) || (u.is_wall() == v.is_wall() && v < u) || (u == v && at < image{});
         all.push_back(swap ? vertex_pair{v, u, image{} - at} : vertex_pair{u, v, at});
       }
     }

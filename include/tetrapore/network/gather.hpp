@@ -75,7 +75,8 @@ namespace detail {
 [[nodiscard]] inline throat<double> throat_at(const network& net, throat_id t) noexcept {
   throat<double> out = detail::facet_at(net, t);
   out.nodes[0] = net.power_centre(net.pores(t)[0]);
-  out.nodes[1] = net.is_boundary(t) ? out.nodes[0] : net.power_centre(net.pores(t)[1]) + net.region().shift(net.shift(t));
+  out.nodes[1] =
+      net.is_boundary(t) ? out.nodes[0] : net.power_centre(net.pores(t)[1]) + net.region().shift(net.shift(t));
   return out;
 }
 

@@ -44,9 +44,8 @@ class intruder_list {
     for (std::size_t i = 0; i < order.size(); ++i) {
       order[i] = i;
     }
-    std::sort(order.begin(), order.end(), [this](std::size_t a, std::size_t b) {
-      return pores_[a] != pores_[b] ? pores_[a] < pores_[b] : a < b;
-    });
+    std::sort(order.begin(), order.end(),
+              [this](std::size_t a, std::size_t b) { return pores_[a] != pores_[b] ? pores_[a] < pores_[b] : a < b; });
     std::vector<pore_id> pores(order.size());
     std::vector<sphere<double>> balls(order.size());
     for (std::size_t i = 0; i < order.size(); ++i) {
@@ -64,9 +63,9 @@ class intruder_list {
 
 /// What `measure` met.
 struct measure_report {
-  std::size_t flat_pores = 0;     ///< cells too flat for a power centre of their own: they took a neighbour's
-  std::size_t kernel_pores = 0;   ///< cells in which a ball overlaps, reaches through a facet or a wall, or intrudes
-  std::size_t intrusions = 0;     ///< pairs of a cell and a ball that is not one of its vertices
+  std::size_t flat_pores = 0;    ///< cells too flat for a power centre of their own: they took a neighbour's
+  std::size_t kernel_pores = 0;  ///< cells in which a ball overlaps, reaches through a facet or a wall, or intrudes
+  std::size_t intrusions = 0;    ///< pairs of a cell and a ball that is not one of its vertices
 };
 
 namespace detail {

@@ -18,7 +18,8 @@
 namespace tetrapore::inline TETRAPORE_ABI {
 
 /// Vertices of the facet opposite to each vertex of a pore, counter-clockwise seen from outside.
-inline constexpr std::array<std::array<std::uint8_t, 3>, 4> facet_vertices{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+inline constexpr std::array<std::array<std::uint8_t, 3>, 4> facet_vertices{
+    {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
 /// The flat arrays of a network; what is saved, loaded and validated.
 struct network_arrays {
@@ -36,8 +37,8 @@ struct network_arrays {
 
   // per throat
   std::vector<std::array<pore_id, 2>> throat_pores;  ///< the second is invalid on a boundary
-  std::vector<std::uint8_t> throat_slots;            ///< bits 0-1: slot in pore 0, 2-3: slot in pore 1, 4-6: boundary face
-  std::vector<image> throat_shifts;                  ///< added to pore 1 to lie beside pore 0; empty if not periodic
+  std::vector<std::uint8_t> throat_slots;  ///< bits 0-1: slot in pore 0, 2-3: slot in pore 1, 4-6: boundary face
+  std::vector<image> throat_shifts;        ///< added to pore 1 to lie beside pore 0; empty if not periodic
 };
 
 /// A pore network: pores, throats and grains with their topology, volumes and power centres.
@@ -126,9 +127,7 @@ class network {
     return both[0] == p ? both[1] : both[0];
   }
   /// Image to add to the coordinates of pore 1 so that it lies beside pore 0.
-  [[nodiscard]] image shift(throat_id t) const noexcept {
-    return periodic() ? a_.throat_shifts[t.index()] : image{};
-  }
+  [[nodiscard]] image shift(throat_id t) const noexcept { return periodic() ? a_.throat_shifts[t.index()] : image{}; }
 
   /// Mutable access for the functions that build a network or make it follow its grains.
   [[nodiscard]] network_arrays& mutable_arrays() noexcept { return a_; }

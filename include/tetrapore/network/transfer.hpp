@@ -185,7 +185,8 @@ class cell_grid {
   }
   void find(const bounds3& b, std::vector<std::uint32_t>& out) const {
     out.clear();
-    for_buckets(b, [&](std::size_t bucket) { out.insert(out.end(), buckets_[bucket].begin(), buckets_[bucket].end()); });
+    for_buckets(b,
+                [&](std::size_t bucket) { out.insert(out.end(), buckets_[bucket].begin(), buckets_[bucket].end()); });
     std::sort(out.begin(), out.end());
     out.erase(std::unique(out.begin(), out.end()), out.end());
   }
@@ -238,7 +239,8 @@ struct changed_cells {
   std::vector<bounds3> boxes;
   intruder_list intruders;
 
-  changed_cells(const network& net, std::vector<pore_id> which) : pores(std::move(which)), intruders(find_intruders(net)) {
+  changed_cells(const network& net, std::vector<pore_id> which)
+      : pores(std::move(which)), intruders(find_intruders(net)) {
     for (const pore_id p : pores) {
       bodies.push_back(upright(pore_body_at(net, p)));
       boxes.push_back(bounds_of(bodies.back()));

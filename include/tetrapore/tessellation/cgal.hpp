@@ -3,6 +3,7 @@
 
 #include "tetrapore/network/connect.hpp"
 #include "tetrapore/network/measure.hpp"
+#include "tetrapore/packing/check.hpp"
 #include "tetrapore/tessellation/tessellation.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -35,7 +36,8 @@ struct cgal_vertex {
 
 using cgal_kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using cgal_vertex_base =
-    CGAL::Triangulation_vertex_base_with_info_3<cgal_vertex, cgal_kernel, CGAL::Regular_triangulation_vertex_base_3<cgal_kernel>>;
+    CGAL::Triangulation_vertex_base_with_info_3<cgal_vertex, cgal_kernel,
+                                                CGAL::Regular_triangulation_vertex_base_3<cgal_kernel>>;
 using cgal_cell_base = CGAL::Triangulation_cell_base_with_info_3<
     std::uint32_t, cgal_kernel,
     CGAL::Regular_triangulation_cell_base_3<cgal_kernel, CGAL::Triangulation_cell_base_3<cgal_kernel>,
@@ -43,16 +45,17 @@ using cgal_cell_base = CGAL::Triangulation_cell_base_with_info_3<
 using cgal_structure = CGAL::Triangulation_data_structure_3<cgal_vertex_base, cgal_cell_base>;
 using cgal_regular = CGAL::Regular_triangulation_3<cgal_kernel, cgal_structure>;
 
-/// Integer coordinates in which the topology is decided: multiples of a quantum of 2^-40 of the longest side, counted
-/// from the low corner. Shifts by a box length are exact in them, so that all periodic images of a cospherical set
-/// are triangulated alike.
+/// The coordinates in which the topology is decided. Without periodic axes they are the caller's, moved near the origin
+/// without rounding. With periodic axes they are integers, multiples of a quantum of 2^-40 of the longest side: shifts by
+/// a box length are then exact, so that all periodic images of a cospherical set are triangulated alike.
 struct topology_frame {
+  bool rounded = false;
   vec3<double> origin;
-  double quantum = 1.0;
-  vec3<double> period;  ///< box lengths in quanta, integers
-  double extent = 1.0;  ///< longest side in quanta
+  double quantum = 1.0;  ///< [m]
+  vec3<double> period;   ///< box lengths in quanta, integers
+  double extent = 1.0;   ///< longest side in quanta
 
-  topology_frame(std::span<const sphere<double>> grains, const domain& region) {
+  topology_frame(std::span<const sphere<double>> grains, const domain& region) : rounded(region.any_periodic()) {
     vec3<double> lo = grains.front().centre;
     vec3<double> hi = lo;
     for (const auto& g : grains) {
@@ -66,19 +69,26 @@ struct topology_frame {
         (is_max(f) ? hi : lo)[axis_of(f)] = region.bounds.position(f);
       }
     }
-    origin = lo;
     const vec3<double> size = hi - lo;
-    const double longest = std::max({size.x, size.y, size.z, grains.front().radius});
-    quantum = std::ldexp(1.0, std::ilogb(longest) - 40);
-    extent = std::ceil(longest / quantum);
-    for (std::size_t k = 0; k < 3; ++k) {
-      period[k] = region.is_periodic(k) ? std::nearbyint(size[k] / quantum) : 0.0;
+    extent = std::max({size.x, size.y, size.z, grains.front().radius});
+    const double unit = std::ldexp(1.0, std::ilogb(extent));
+    for (std::size_t k = 0; k < 3; ++k) {  // a coarse multiple, so that the difference to any coordinate is exact
+      origin[k] = std::floor(lo[k] / unit) * unit;
+    }
+    if (rounded) {
+      quantum = unit * 0x1p-40;
+      extent = std::ceil(extent / quantum);
+      for (std::size_t k = 0; k < 3; ++k) {
+        period[k] = region.is_periodic(k) ? std::nearbyint(size[k] / quantum) : 0.0;
+      }
     }
   }
 
   [[nodiscard]] vec3<double> operator()(const vec3<double>& p) const noexcept {
     const vec3<double> d = p - origin;
-    return {std::nearbyint(d.x / quantum), std::nearbyint(d.y / quantum), std::nearbyint(d.z / quantum)};
+    return rounded ? vec3<double>{std::nearbyint(d.x / quantum), std::nearbyint(d.y / quantum),
+                                  std::nearbyint(d.z / quantum)}
+                   : d;
   }
 };
 
@@ -129,13 +139,13 @@ struct canonical_cell {
 /// area, volume and power centre at a wall comes from its plane. Periodic axes are padded with ghost copies until each
 /// cell finds its neighbours among the translates; any box will do.
 /// \par Domain    at least four grains that are not coplanar, or walls that close the region around them
-/// \par Accuracy  exact predicates on coordinates rounded to 2^-41 of the longest side
+/// \par Accuracy  exact predicates; with periodic axes on coordinates rounded to 2^-41 of the longest side
 /// \par Source    Chareyre et al. 2017, §2.1; walls: the limit of an infinite sphere of the same construction
 class cgal_triangulation {
  public:
   struct options {
-    double wall_device = 0x1p24;   ///< radius of the sphere that stands for a wall, in longest sides
-    double first_padding = 3.0;    ///< first width of the ghost layers, in mean spacings of the grains
+    double wall_device = 0x1p24;  ///< radius of the sphere that stands for a wall, in longest sides
+    double first_padding = 3.0;   ///< first width of the ghost layers, in mean spacings of the grains
   };
 
   cgal_triangulation() = default;
@@ -143,6 +153,7 @@ class cgal_triangulation {
 
   /// \throw packing_error  naming the grain, or the region
   [[nodiscard]] tessellation operator()(std::span<const sphere<double>> grains, const domain& region) const {
+    check_triangulable(grains, region);
     const detail::topology_frame frame(grains, region);
     if (!region.any_periodic()) {
       return *attempt(grains, region, frame, 0.0);
@@ -202,6 +213,7 @@ class cgal_triangulation {
       where.push_back(p);
     }
     if (region.any_periodic()) {
+      const vec3<double> lo = frame(region.bounds.lo);
       std::array<int, 3> layers{};
       for (std::size_t k = 0; k < 3; ++k) {
         layers[k] = region.is_periodic(k) ? static_cast<int>(std::ceil(padding / frame.period[k])) : 0;
@@ -218,7 +230,8 @@ class cgal_triangulation {
               const vec3<double> p = where[i] + move;
               bool near = true;
               for (std::size_t k = 0; k < 3; ++k) {
-                near = near && (!region.is_periodic(k) || (p[k] >= -padding && p[k] <= frame.period[k] + padding));
+                near = near && (!region.is_periodic(k) ||
+                                (p[k] >= lo[k] - padding && p[k] <= lo[k] + frame.period[k] + padding));
               }
               if (near) {
                 const double r = grains[i].radius / frame.quantum;
