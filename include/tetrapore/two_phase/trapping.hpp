@@ -56,17 +56,20 @@ class cut_off_sets {
   [[nodiscard]] std::span<const std::uint32_t> pores(std::size_t k) const noexcept {
     return {pores_.data() + sets_[k].begin, sets_[k].count};
   }
-  void begin_set(std::size_t time) { sets_.push_back({time, pores_.size(), 0, 0xffffffffU}); }
+  void begin_set(std::size_t time) { sets_.push_back({time, pores_.size(), 0}); }
   void add(std::size_t pore) {
-    const auto p = static_cast<std::uint32_t>(pore);
-    pores_.push_back(p);
+    pores_.push_back(static_cast<std::uint32_t>(pore));
     ++sets_.back().count;
-    sets_.back().least = std::min(sets_.back().least, p);
   }
-  /// Earlier first; among those of one time by their least pore.
+  /// Pores of a set by id; earlier sets first, among those of one time by their least pore: one order, and so one sum of
+  /// volumes, for whichever way the sets were found.
   void sort() {
-    std::sort(sets_.begin(), sets_.end(), [](const entry& a, const entry& b) {
-      return a.time != b.time ? a.time < b.time : a.least < b.least;
+    for (const entry& s : sets_) {
+      const auto first = pores_.begin() + static_cast<std::ptrdiff_t>(s.begin);
+      std::sort(first, first + static_cast<std::ptrdiff_t>(s.count));
+    }
+    std::sort(sets_.begin(), sets_.end(), [&](const entry& a, const entry& b) {
+      return a.time != b.time ? a.time < b.time : pores_[a.begin] < pores_[b.begin];
     });
   }
 
@@ -75,7 +78,6 @@ class cut_off_sets {
     std::size_t time;
     std::size_t begin;
     std::size_t count;
-    std::uint32_t least;
   };
   std::vector<std::uint32_t> pores_;
   std::vector<entry> sets_;
