@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A bare number is no id.
+// expect: would use explicit constructor|cannot convert initializer list argument to 'tetrapore::pore_id'
+#include "tetrapore/core.hpp"
+
+std::size_t wanted(tetrapore::pore_id p) { return p.index(); }
+std::size_t given(std::size_t n) { return wanted({n}); }

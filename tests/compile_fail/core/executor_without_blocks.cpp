@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What runs a loop has a member blocks.
+// expect: e.blocks\(n, f\). (is invalid|would be invalid)
+#include "tetrapore/core.hpp"
+
+struct mine {
+  template <class F>
+  void chunks(std::size_t n, F&& f) const {
+    f(std::size_t{0}, n);
+  }
+};
+static_assert(tetrapore::executor<mine>);
