@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// From spheres to the measured network, beside what the bare library call allows: CGAL's range insertion of the same
+// spheres. The error of a row is |Σ void + solid - box| / box.
+
+#include "tetrapore/network.hpp"
+#include "tetrapore/packing/random_packing.hpp"
+#include "tetrapore/packing/tile.hpp"
+#include "tetrapore/tessellation/cgal.hpp"
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <map>
+#include <random>
+
+using namespace tetrapore;
+
+namespace {
+
+/// n dense grains in a box with walls: a periodic random packing of 1,000, repeated, in random order.
+const packing& dense(std::size_t n) {
+  static std::map<std::size_t, packing> made;
+  if (const auto found = made.find(n); found != made.end()) {
+    return found->second;
+  }
+  std::vector<double> radii(1000);
+  std::mt19937_64 random(3);
+  for (double& r : radii) {
+    r = 0.7 + 0.6 * static_cast<double>(random() >> 11U) * 0x1p-53;
+  }
+  const packing cell = random_packing(radii, {.solid_fraction = 0.6, .periodic = {true, true, true}, .seed = 5});
+  std::array<std::size_t, 3> copies{1, 1, 1};
+  for (std::size_t k = 0, left = n / 1000; left > 1; ++k) {
+    const std::size_t factor = left % 2 == 0 ? 2 : (left % 5 == 0 ? 5 : left);
+    copies[k % 3] *= factor;
+    left /= factor;
+  }
+  packing p = tile(cell, copies);
+  double largest = 0;
+  for (const auto& g : p.grains) {
+    largest = std::max(largest, g.radius);
+  }
+  p.periodic = {};
+  std::shuffle(p.grains.begin(), p.grains.end(), random);
+  return made.emplace(n, std::move(p)).first->second;
+}
+
+void cgal_alone(benchmark::State& state) {
+  using regular = detail::cgal_regular;
+  const packing& p = dense(static_cast<std::size_t>(state.range(0)));
+  std::size_t cells = 0;
+  for (auto _ : state) {
+    std::vector<std::pair<regular::Weighted_point, detail::cgal_vertex>> sites;
+    sites.reserve(p.grains.size());
+    for (std::size_t i = 0; i < p.grains.size(); ++i) {
+      const auto& g = p.grains[i];
+      sites.emplace_back(regular::Weighted_point({g.centre.x, g.centre.y, g.centre.z}, g.radius * g.radius),
+                         detail::cgal_vertex{vertex(grain_id(i)), {}});
+    }
+    regular t;
+    t.insert(sites.begin(), sites.end());
+    cells = t.number_of_finite_cells();
+  }
+  state.counters["per_grain"] = benchmark::Counter(static_cast<double>(p.grains.size()),
+                                                   benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["cells"] = static_cast<double>(cells);
+  state.counters["error"] = 0;
+  state.counters["failed"] = 0;
+}
+
+std::size_t bytes_of(const network_arrays& a) {
+  const auto of = [](const auto& column) { return column.capacity() * sizeof(column[0]); };
+  return of(a.grains) + of(a.pore_vertices) + of(a.pore_images) + of(a.pore_throats) + of(a.power_centres) +
+         of(a.volumes) + of(a.void_volumes) + of(a.throat_pores) + of(a.throat_slots) + of(a.throat_shifts);
+}
+
+void spheres_to_network(benchmark::State& state) {
+  const packing& p = dense(static_cast<std::size_t>(state.range(0)));
+  const domain region = state.range(1) != 0 ? domain_of(packing{p.grains, p.bounds, {true, true, true}}) : domain_of(p);
+  network net;
+  for (auto _ : state) {
+    net = cgal_triangulation{}(p.grains, region).net;
+  }
+  const double box = compensated_sum(net.arrays().volumes);
+  state.counters["per_grain"] = benchmark::Counter(static_cast<double>(p.grains.size()),
+                                                   benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["cells"] = static_cast<double>(net.pore_count());
+  state.counters["bytes_per_pore"] = static_cast<double>(bytes_of(net.arrays())) / static_cast<double>(net.pore_count());
+  state.counters["error"] = std::abs(compensated_sum(net.arrays().void_volumes) + solid_volume(net) - box) / box;
+  state.counters["failed"] = 0;
+}
+
+}  // namespace
+
+BENCHMARK(cgal_alone)->Arg(40000)->Arg(1000000)->Unit(benchmark::kMillisecond);
+BENCHMARK(spheres_to_network)
+    ->ArgNames({"grains", "periodic"})
+    ->Args({40000, 0})
+    ->Args({40000, 1})
+    ->Args({1000000, 0})
+    ->Unit(benchmark::kMillisecond);
