@@ -3,6 +3,7 @@
 # check.sh CASE.cpp COMPILER FLAGS…: CASE.cpp must be refused with the sentence that its line `// expect: REGEX` gives;
 # CASE_ok.cpp, which differs from it in one place, must compile.
 set -u
+export LC_ALL=C
 case_file=$1
 shift
 twin=${case_file%.cpp}_ok.cpp
