@@ -116,7 +116,7 @@ template <real T>
     const vec3<T>& from = p[e.from];
     const vec3<T> edge = p[e.to] - from;
     const T length = norm(edge);
-    if (!(length > T(0))) {
+    if (length == T(0)) {
       continue;
     }
     const T d = dot(normal, cross(from, edge)) / length;
@@ -130,16 +130,18 @@ template <real T>
   if (count == 0) {
     return T(0);
   }
-  if (!meets_disc) {
-    const T cap = around ? (r - h) * (r - h) * (r + r + h) * T(pi<T>) / T(3) : T(0);
-    return whole_cone() - turn_sense * cap;
+  const bool distant = h + h > r;
+  if (!meets_disc && !around) {
+    return whole_cone();
+  }
+  if (!meets_disc && distant) {
+    return whole_cone() - turn_sense * ((r - h) * (r - h) * (r + r + h) * T(pi<T>) / T(3));
   }
 
   // Each edge closes a triangle with the foot. On the part of its line inside the disc the triangle carries a pyramid; on
   // the parts outside a cone r³/3 (h/r Δφ - Δψ) and a pyramid h a²/6 Δφ, with φ the angle at the foot and
   // tan ψ = h s / (d R), s along the line and R the distance from the centre. For a distant plane the difference is taken
   // analytically instead: the whole solid angle of the triangle, less its share of the cap.
-  const bool distant = h + h > r;
   const T per_angle = distant ? -(r - h) * (r - h) * (r + r + h) / T(6) : h * (T(3) * r * r - h2) / T(6);
   T volume(0);
   for (std::size_t k = 0; k < count; ++k) {
@@ -199,6 +201,12 @@ template <real T>
 }
 
 namespace detail {
+
+template <real T>
+[[nodiscard]] bool is_finite(const sphere<T>& s) noexcept {
+  const T probe = s.centre.x + s.centre.y + s.centre.z + s.radius;
+  return probe - probe == T(0);
+}
 
 /// How ball i meets ball j, for the share of i in their union.
 enum class overlap : std::uint8_t {
@@ -261,6 +269,9 @@ template <real T, class BallAt>
 [[nodiscard]] outcome<T, geometry_status> share_of(const polyhedron<T>& body, std::size_t n, const BallAt& ball,
                                                    std::size_t i) noexcept {
   const sphere<T> mine = ball(i);
+  if (!is_finite(mine)) {
+    return refuse<T>(geometry_status::not_finite);
+  }
   if (body.empty() || apart(mine, body)) {
     return {T(0), geometry_status::ok};
   }

@@ -309,6 +309,9 @@ template <real T, std::size_t G>
   T solid(0);
   for (std::size_t i = 0; i < n; ++i) {
     const sphere<T> a = ball(i);
+    if (!is_finite(a)) {
+      return refuse<T>(geometry_status::not_finite);
+    }
     if (i < G && sector[i]) {
       solid += a.radius * a.radius * a.radius * cell.angle(i) / T(3);
     } else if (!apart(a, whole)) {
