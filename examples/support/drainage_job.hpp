@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "tetrapore/core/error.hpp"
+#include "tetrapore/core/ids.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+/// \file
+/// What primary_drainage is asked on its command line.
+
+namespace support {
+
+struct drainage_job {
+  std::filesystem::path packing;
+  double surface_tension = 0.072;  ///< [N/m]
+  double contact_angle = 0;        ///< [degrees]
+  std::string entry = "msp";
+  std::string gap_limited = "lost_arc";
+  tetrapore::face inlet = tetrapore::face::y_max;
+  tetrapore::face outlet = tetrapore::face::y_min;
+  std::optional<std::array<bool, 3>> periodic;  ///< axes; none: as the file says
+  bool walls = true;
+  bool trapping = true;
+  double scale = 1;                  ///< metres per unit of the file
+  std::optional<double> density;     ///< difference of the two fluids [kg/m³]
+  std::filesystem::path out = "primary_drainage_out";
+};
+
+[[noreturn]] inline void refuse(const std::string& option, const std::string& found, const std::string& expected) {
+  throw tetrapore::parameter_error(option, "\"" + found + "\"", expected);
+}
+
+/// The number that an option gives, inside a range; `expected` says which.
+template <class Accepts>
+[[nodiscard]] double number_of(const std::string& option, const std::string& text, const Accepts& accepts,
+                               const std::string& expected) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value) || !accepts(value)) {
+    refuse(option, text, expected);
+  }
+  return value;
+}
+
+[[nodiscard]] inline tetrapore::face face_of(const std::string& option, const std::string& text) {
+  for (const auto f : tetrapore::all_faces) {
+    if (text == describe(f)) {
+      return f;
+    }
+  }
+  refuse(option, text, "one of x_min, x_max, y_min, y_max, z_min, z_max");
+}
+
+[[nodiscard]] inline std::array<bool, 3> axes_of(const std::string& option, const std::string& text) {
+  std::array<bool, 3> axes{};
+  for (const char c : text) {
+    if (c < 'x' || c > 'z' || axes[static_cast<std::size_t>(c - 'x')]) {
+      refuse(option, text, "letters among x, y, z, each once");
+    }
+    axes[static_cast<std::size_t>(c - 'x')] = true;
+  }
+  return axes;
+}
+
+[[nodiscard]] inline std::string choice_of(const std::string& option, const std::string& text,
+                                           std::initializer_list<const char*> choices) {
+  std::string all;
+  for (const char* c : choices) {
+    if (text == c) {
+      return text;
+    }
+    all += (all.empty() ? "" : ", ") + std::string(c);
+  }
+  refuse(option, text, "one of " + all);
+}
+
+/// Reads the command line; empty when only help was asked for, which is then printed.
+/// \throw tetrapore::parameter_error  names the option, what it was given and what it takes
+[[nodiscard]] inline std::optional<drainage_job> read_command_line(int argc, char** argv,
+                                                                   const std::filesystem::path& shipped) {
+  drainage_job job;
+  std::string packing = shipped.string();
+  std::string tension = "0.072";
+  std::string angle = "0";
+  std::string inlet = "y_max";
+  std::string outlet = "y_min";
+  std::string periodic;
+  std::string scale = "1";
+  std::string density;
+  std::string out = job.out.string();
+  bool no_walls = false;
+  bool no_trapping = false;
+
+  CLI::App app("Primary drainage of a packing of spheres: its retention curve, pictures and history.", "primary_drainage");
+  app.add_option("PACKING", packing, "file of spheres: text, CSV, LAMMPS/LIGGGHTS dump, .xyzd, pack.out, Yade export")
+      ->capture_default_str();
+  app.add_option("--surface-tension", tension, "surface tension [N/m]")->capture_default_str();
+  app.add_option("--contact-angle", angle, "contact angle [degrees], 0 to below 90")->capture_default_str();
+  app.add_option("--entry", job.entry, "entry law: msp (Mayer-Stowe-Princen) or inscribed (circle)")->capture_default_str();
+  app.add_option("--gap-limited", job.gap_limited,
+                 "a throat whose widest gap holds no meniscus: lost_arc, merged or refused")
+      ->capture_default_str();
+  app.add_option("--inlet", inlet, "face by which gas enters: x_min ... z_max")->capture_default_str();
+  app.add_option("--outlet", outlet, "face by which liquid leaves")->capture_default_str();
+  app.add_option("--periodic", periodic, "axes along which the box repeats, such as xz (default: as the file says)");
+  app.add_flag("--no-walls", no_walls, "open faces instead of walls: the hull of the grain centres");
+  app.add_flag("--no-trapping", no_trapping, "liquid that is cut off drains all the same");
+  app.add_option("--scale", scale, "metres per unit of length of the file")->capture_default_str();
+  app.add_option("--density", density, "density difference of the fluids [kg/m3]: gives the Bond number");
+  app.add_option("--out", out, "folder for the files")->capture_default_str();
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    std::fputs(app.help().c_str(), stdout);
+    return std::nullopt;
+  } catch (const CLI::ParseError& e) {
+    throw tetrapore::parameter_error("command line", e.what(), "options as --help lists them");
+  }
+
+  const auto positive = [](double x) { return x > 0; };
+  job.packing = packing;
+  job.surface_tension = number_of("--surface-tension", tension, positive, "a number above 0 [N/m]");
+  job.contact_angle = number_of("--contact-angle", angle, [](double x) { return x >= 0 && x < 90; },
+                                "a number from 0 to below 90 [degrees]");
+  job.entry = choice_of("--entry", job.entry, {"msp", "inscribed"});
+  job.gap_limited = choice_of("--gap-limited", job.gap_limited, {"lost_arc", "merged", "refused"});
+  job.inlet = face_of("--inlet", inlet);
+  job.outlet = face_of("--outlet", outlet);
+  if (job.inlet == job.outlet) {
+    refuse("--outlet", outlet, "another face than the inlet");
+  }
+  if (app.count("--periodic") > 0) {
+    job.periodic = axes_of("--periodic", periodic);
+  }
+  job.walls = !no_walls;
+  job.trapping = !no_trapping;
+  job.scale = number_of("--scale", scale, positive, "a number above 0 [metres per unit of the file]");
+  if (app.count("--density") > 0) {
+    job.density = number_of("--density", density, [](double x) { return x >= 0; }, "a number, not negative [kg/m3]");
+  }
+  job.out = out;
+  std::error_code ignored;
+  if (out.empty() || (std::filesystem::exists(job.out, ignored) && !std::filesystem::is_directory(job.out, ignored))) {
+    refuse("--out", out, "a folder, or a name that is free for one");
+  }
+  return job;
+}
+
+}  // namespace support

@@ -1,0 +1,414 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "support/drainage_job.hpp"
+#include "support/stopwatch.hpp"
+#include "support/van_genuchten.hpp"
+
+#include "tetrapore/geometry/inscribed.hpp"
+#include "tetrapore/law/entry.hpp"
+#include "tetrapore/network/gather.hpp"
+#include "tetrapore/network/solid.hpp"
+#include "tetrapore/packing/statistics.hpp"
+#include "tetrapore/tessellation/tessellation.hpp"
+#include "tetrapore/two_phase/drainage.hpp"
+#include "tetrapore/two_phase/facet_rule.hpp"
+
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <vector>
+
+/// \file
+/// What is told about a drainage: sizes of pores and throats, the curve, and the numbers behind the keys on stdout.
+
+namespace support {
+
+namespace tp = tetrapore;
+inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+// the packing ----------------------------------------------------------------------------------------------------------
+
+/// The smallest box that holds the grains whole.
+[[nodiscard]] inline tp::box tight_box(std::span<const tp::sphere<double>> grains) {
+  constexpr double far = std::numeric_limits<double>::infinity();
+  tp::box b{{far, far, far}, {-far, -far, -far}};
+  for (const auto& g : grains) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      b.lo[k] = std::min(b.lo[k], g.centre[k] - g.radius);
+      b.hi[k] = std::max(b.hi[k], g.centre[k] + g.radius);
+    }
+  }
+  return b;
+}
+
+/// Says how many grains reach through a wall: the part outside is cut off, exactly.
+inline void report_protruding(const tp::packing& packing, bool walls) {
+  std::size_t count = 0;
+  double most = 0;
+  for (const auto& g : packing.grains) {
+    double deepest = 0;
+    for (std::size_t k = 0; k < 3 && packing.bounds && walls; ++k) {
+      if (!packing.periodic[k]) {
+        deepest = std::max({deepest, g.radius - (g.centre[k] - packing.bounds->lo[k]), g.radius - (packing.bounds->hi[k] - g.centre[k])});
+      }
+    }
+    // A box and a radius that were rounded to nine digits meet to nine digits: that is touching, not reaching through.
+    count += deepest > 1e-8 * g.radius ? 1 : 0;
+    most = std::max(most, deepest / g.radius);
+  }
+  if (count > 0) {
+    std::fprintf(stderr, "%zu grains reach through a wall, by up to %.3g of their radius: what is outside is clipped\n", count, most);
+  }
+}
+
+// sizes ----------------------------------------------------------------------------------------------------------------
+
+/// How the entry law answered for each throat, and how large things are. A throat with one pore is a boundary: no answer.
+struct sizes {
+  std::vector<double> entry_pressure;         ///< [Pa] of the facet alone; infinity: closed; NaN: refused, boundary
+  std::vector<tp::entry_status> entry_status; ///< of the law itself, before --gap-limited
+  std::vector<double> throat_radius;          ///< [m] inscribed circle; 0: covered; NaN: there is none
+  std::vector<double> throat_area;            ///< [m²] of the whole facet
+  std::vector<double> pore_radius;            ///< [m] inscribed sphere; 0: covered; NaN: there is none
+  std::vector<std::int32_t> coordination;     ///< throats of a pore that lead to another pore and are not closed
+};
+
+/// The radius of an inscribed circle or sphere.
+template <class Shape>
+[[nodiscard]] double radius_or_none(const tp::outcome<Shape, tp::inscribed_status>& found) {
+  return found.ok() ? found.value.radius : (found.kind() == tp::verdict::absent ? 0.0 : nan);
+}
+
+[[nodiscard]] inline double inscribed_radius(const tp::pore_body<double>& body) {
+  std::array<tp::bounding_side3<double>, 4> sides;
+  for (std::size_t k = 0; k < 4; ++k) {
+    sides[k] = k < body.grain_count ? tp::round_side(body.grains[k]) : tp::flat_side(body.walls[k - body.grain_count]);
+  }
+  return radius_or_none(tp::sphere_between(sides));
+}
+
+[[nodiscard]] inline double inscribed_radius(const tp::opening<double>& ring) {
+  std::array<tp::bounding_side2<double>, 3> sides;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto& s = ring.sides[k];
+    sides[k] = {s.point, s.normal, s.radius, s.kind == tp::side_kind::line};
+  }
+  return radius_or_none(tp::circle_between(sides));
+}
+
+/// Gathers the answers of a rule for every throat between two pores, before an invasion moves them.
+template <class Rule>
+[[nodiscard]] sizes measure_sizes(const tp::network& net, const Rule& rule) {
+  sizes s;
+  s.entry_pressure.assign(net.throat_count(), nan);
+  s.entry_status.assign(net.throat_count(), tp::entry_status::not_covered);
+  s.coordination.assign(net.pore_count(), 0);
+  for (std::size_t k = 0; k < net.throat_count(); ++k) {
+    const tp::throat_id t(k);
+    const auto ring = tp::opening_at(net, t);
+    s.throat_radius.push_back(inscribed_radius(ring));
+    s.throat_area.push_back(norm(tp::throat_at(net, t).area_vector));
+    if (net.is_boundary(t)) {
+      continue;
+    }
+    s.entry_pressure[k] = rule.value(t);
+    s.entry_status[k] = rule.reason(t);
+    if (rule.reason(t) == tp::entry_status::lost_arc) {  // the rule's answer in place of the law's: which was it?
+      s.entry_status[k] = rule.law().entry_pressure(ring).reason;
+    }
+    if (rule.reason(t) != tp::entry_status::closed) {
+      for (const tp::pore_id p : net.pores(t)) {
+        ++s.coordination[p.index()];
+      }
+    }
+  }
+  for (std::size_t p = 0; p < net.pore_count(); ++p) {
+    s.pore_radius.push_back(inscribed_radius(tp::pore_body_at(net, tp::pore_id(p))));
+  }
+  return s;
+}
+
+// the invasion ---------------------------------------------------------------------------------------------------------
+
+enum class phase : std::uint8_t { gas = 0, liquid = 1, trapped_liquid = 2 };
+
+[[nodiscard]] inline std::vector<phase> phases_of(const tp::two_phase_state& state) {
+  std::vector<phase> out(state.pore_count());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const tp::pore_id p(i);
+    out[i] = state.is_gas(p) ? phase::gas : state.is_trapped(p) ? phase::trapped_liquid : phase::liquid;
+  }
+  return out;
+}
+
+struct snapshot {
+  double saturation;
+  double pressure;  ///< [Pa]
+  std::vector<phase> phases;
+};
+
+/// An invasion from beginning to end.
+struct history {
+  std::vector<tp::drainage_event> events;
+  std::vector<snapshot> snapshots;  ///< at falling saturations, the first and the last state among them
+  tp::two_phase_state end;
+  std::size_t merged = 0;           ///< throats at the front whose threshold was that of several facets
+  double void_volume = 0;           ///< of the pores that are not reservoir [m³]
+};
+
+/// Drains to the end and keeps the state where the saturation first falls to 0.9, 0.8, …
+template <class Rule>
+  requires tp::entry_rule<Rule>
+[[nodiscard]] history drain(const tp::network& net, Rule& rule, const drainage_job& job) {
+  tp::drainage invasion(net, rule,
+                        {.inlet = job.inlet,
+                         .outlet = job.outlet,
+                         .trap = job.trapping ? tp::trapping::per_event : tp::trapping::none});
+  history h;
+  const auto keep = [&] {
+    if (h.snapshots.empty() || invasion.saturation() < h.snapshots.back().saturation) {
+      h.snapshots.push_back({invasion.saturation(), invasion.state().pressure(), phases_of(invasion.state())});
+    }
+  };
+  keep();
+  for (int tenth = 9; tenth > 0; --tenth) {
+    invasion.run_to_saturation(0.1 * tenth);
+    keep();
+  }
+  invasion.run();
+  keep();
+  h.events = invasion.events();
+  h.end = invasion.state();
+  h.merged = rule.merges().merged;
+  h.void_volume = invasion.void_volume();
+  return h;
+}
+
+// the curve ------------------------------------------------------------------------------------------------------------
+
+/// One row per level: the state when the burst that a pressure released has ended. The first row is the start.
+struct retention {
+  std::vector<double> pressure;    ///< [Pa]
+  std::vector<double> saturation;  ///< of all pores that are not reservoir
+  std::vector<double> interior;    ///< of those that touch no wall; NaN where there are none
+  std::vector<std::size_t> pores;  ///< invaded so far
+
+  /// The pressure at which the saturation first falls to `s` or below; NaN where it never does.
+  [[nodiscard]] double pressure_at(double s) const {
+    for (std::size_t i = 0; i < saturation.size(); ++i) {
+      if (saturation[i] <= s) {
+        return pressure[i];
+      }
+    }
+    return nan;
+  }
+};
+
+[[nodiscard]] inline retention curve_of(const tp::network& net, const history& h) {
+  double interior_void = 0;
+  for (std::size_t p = 0; p < net.pore_count(); ++p) {
+    if (!h.end.is_reservoir(tp::pore_id(p)) && !net.touches_wall(tp::pore_id(p))) {
+      interior_void += net.void_volume(tp::pore_id(p));
+    }
+  }
+  retention c;
+  double drained = 0;
+  double drained_interior = 0;
+  const auto row = [&](double pressure, std::size_t pores) {
+    c.pressure.push_back(pressure);
+    c.saturation.push_back(1 - drained / h.void_volume);
+    c.interior.push_back(1 - drained_interior / interior_void);
+    c.pores.push_back(pores);
+  };
+  row(0, 0);
+  for (std::size_t i = 0; i < h.events.size(); ++i) {
+    const auto& e = h.events[i];
+    drained += e.volume;
+    drained_interior += net.touches_wall(e.pore) ? 0 : e.volume;
+    if (i + 1 == h.events.size() || h.events[i + 1].level != e.level) {
+      row(e.pressure, i + 1);
+    }
+  }
+  return c;
+}
+
+/// Van Genuchten's function through the curve at 99 saturations between 1 and the residual one.
+[[nodiscard]] inline van_genuchten fit(const retention& c) {
+  const double residual = c.saturation.back();
+  std::vector<double> pressure;
+  std::vector<double> saturation;
+  for (int k = 1; k < 100; ++k) {
+    const double s = 1 - (1 - residual) * k / 100;
+    const double p = c.pressure_at(s);
+    if (p > 0) {
+      pressure.push_back(p);
+      saturation.push_back(s);
+    }
+  }
+  return fit_van_genuchten(pressure, saturation, residual);
+}
+
+// the keys -------------------------------------------------------------------------------------------------------------
+
+struct seconds {
+  double read = 0;
+  double tessellation = 0;
+  double laws = 0;
+  double invasion = 0;
+  double write = 0;
+};
+
+struct summary {
+  std::size_t grains = 0;
+  std::size_t pores = 0;
+  std::size_t throats = 0;
+  std::size_t hidden = 0;
+  double mean_radius = 0;  ///< [m]
+  double porosity = 0;
+  double volume_defect = 0;
+  std::array<std::size_t, tp::status_counts::kinds> answers{};
+  std::size_t merged = 0;
+  double pressure_unit = 0;  ///< σ over the mean radius [Pa]
+  std::array<double, 4> pressure_at{};  ///< at S = 0.9, 0.7, 0.5, 0.3, in that unit
+  double residual_saturation = 0;
+  double residual_interior = 0;
+  std::size_t trapped_clusters = 0;
+  double bond_number = nan;
+  double gravity_ratio = nan;  ///< hydrostatic difference over the height of the sample / p_c at S = 0.5
+  van_genuchten fitted;
+
+  [[nodiscard]] std::size_t count(tp::entry_status s) const { return answers[static_cast<std::size_t>(s)]; }
+};
+
+inline constexpr std::array<double, 4> levels_told{0.9, 0.7, 0.5, 0.3};
+
+[[nodiscard]] inline summary summarise(const tp::tessellation& mesh, const sizes& s, const history& h,
+                                       const retention& c, const drainage_job& job) {
+  const tp::network& net = mesh.net;
+  summary out;
+  out.grains = net.grain_count();
+  out.pores = net.pore_count();
+  out.throats = net.throat_count();
+  out.hidden = mesh.report.hidden.size();
+  out.mean_radius = tp::radii_of(net.grains()).mean;
+
+  bool closed = true;
+  for (const tp::face f : tp::all_faces) {
+    closed = closed && net.region().at(f) != tp::boundary::open;
+  }
+  const double voids = tp::compensated_sum(net.arrays().void_volumes);
+  const double whole = closed ? net.region().bounds.volume() : tp::compensated_sum(net.arrays().volumes);
+  out.porosity = voids / whole;
+  out.volume_defect = std::abs(voids + tp::solid_volume(net) - whole) / whole;
+
+  for (std::size_t k = 0; k < net.throat_count(); ++k) {
+    if (!net.is_boundary(tp::throat_id(k))) {
+      ++out.answers[static_cast<std::size_t>(s.entry_status[k])];
+    }
+  }
+  out.merged = h.merged;
+
+  out.pressure_unit = job.surface_tension / out.mean_radius;
+  for (std::size_t k = 0; k < levels_told.size(); ++k) {
+    out.pressure_at[k] = c.pressure_at(levels_told[k]) / out.pressure_unit;
+  }
+  double trapped = 0;
+  double trapped_interior = 0;
+  double interior = 0;
+  for (std::size_t i = 0; i < net.pore_count(); ++i) {
+    const tp::pore_id p(i);
+    if (h.end.is_reservoir(p)) {
+      continue;
+    }
+    const double held = h.end.is_trapped(p) ? h.end.liquid()[p] : 0;
+    trapped += held;
+    if (!net.touches_wall(p)) {
+      trapped_interior += held;
+      interior += net.void_volume(p);
+    }
+  }
+  out.residual_saturation = trapped / h.void_volume;
+  out.residual_interior = trapped_interior / interior;
+  out.trapped_clusters = h.end.clusters().size();
+  if (job.density) {
+    constexpr double g = 9.80665;  // [m/s²] standard gravity
+    const double weight = *job.density * g;
+    const std::size_t axis = axis_of(job.inlet);
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    for (const auto& grain : net.grains()) {
+      low = std::min(low, grain.centre[axis]);
+      high = std::max(high, grain.centre[axis]);
+    }
+    out.bond_number = weight * out.mean_radius * out.mean_radius / job.surface_tension;
+    out.gravity_ratio = weight * (high - low) / c.pressure_at(0.5);
+  }
+  out.fitted = fit(c);
+  return out;
+}
+
+/// Gravity matters where the weight of the fluids over the height of the sample is no longer small beside the pressure
+/// that moves them: from 10 % of p_c at S = 0.5 on.
+inline void warn_of_gravity(const summary& s, const drainage_job& job) {
+  if (s.gravity_ratio > 0.1) {
+    std::fprintf(stderr,
+                 "warning: gravity matters: over the sample between %s and %s it changes p_c by %.0f %% of its value at "
+                 "S = 0.5, and this drainage leaves it out (bond_number = %.3g)\n",
+                 describe(job.inlet), describe(job.outlet), 100 * s.gravity_ratio, s.bond_number);
+  }
+}
+
+inline void print_table(const retention& c, const summary& s) {
+  std::printf("%10s %12s %12s %10s %10s\n", "S", "p_c [Pa]", "p_c r/sigma", "S_interior", "gas_pores");
+  double next = 1;
+  for (std::size_t i = 0; i < c.saturation.size(); ++i) {
+    if (c.saturation[i] <= next || i + 1 == c.saturation.size()) {
+      std::printf("%10.4f %12.5g %12.4f %10.4f %10zu\n", c.saturation[i], c.pressure[i],
+                  c.pressure[i] / s.pressure_unit, c.interior[i], c.pores[i]);
+      while (next >= c.saturation[i]) {
+        next -= 0.05;
+      }
+    }
+  }
+}
+
+inline void print_keys(const summary& s, const seconds& t) {
+  using enum tp::entry_status;
+  const auto number = [](const char* key, double value) { std::printf("%s=%.10g\n", key, value); };
+  const auto count = [](const char* key, std::size_t value) { std::printf("%s=%zu\n", key, value); };
+  count("grains", s.grains);
+  count("pores", s.pores);
+  count("throats", s.throats);
+  count("hidden", s.hidden);
+  number("porosity", s.porosity);
+  number("volume_defect", s.volume_defect);
+  count("entry_ok", s.count(ok));
+  count("entry_gap_limited", s.count(gap_limited));
+  count("entry_merged", s.merged);
+  count("entry_no_hole", s.count(no_hole));
+  count("entry_dry", s.count(dry_corner));
+  count("entry_closed", s.count(closed));
+  count("entry_refused", s.count(not_covered) + s.count(invalid_input) + s.count(not_converged));
+  number("pc_s90", s.pressure_at[0]);
+  number("pc_s70", s.pressure_at[1]);
+  number("pc_s50", s.pressure_at[2]);
+  number("pc_s30", s.pressure_at[3]);
+  number("residual_saturation", s.residual_saturation);
+  number("residual_interior", s.residual_interior);
+  count("trapped_clusters", s.trapped_clusters);
+  if (!std::isnan(s.bond_number)) {
+    number("bond_number", s.bond_number);
+  }
+  number("van_genuchten_alpha", s.fitted.alpha);
+  number("van_genuchten_n", s.fitted.n);
+  number("fit_rms", s.fitted.rms);
+  number("seconds_read", t.read);
+  number("seconds_tessellation", t.tessellation);
+  number("seconds_laws", t.laws);
+  number("seconds_invasion", t.invasion);
+  number("seconds_write", t.write);
+  number("peak_rss_mb", peak_rss_mb());
+}
+
+}  // namespace support
