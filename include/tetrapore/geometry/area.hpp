@@ -64,6 +64,13 @@ struct small_polygon {
   }
 };
 
+namespace detail {
+
+/// Squared sine of the angle below which a normal made from two edges has lost too many digits to place a plane.
+inline constexpr double needle2 = 0x1p-40;
+
+}  // namespace detail
+
 /// Whether the ball reaches the plane convex polygon: whether their distance is below the radius. A polygon without
 /// area is its outline.
 /// \par Units  [m]
@@ -74,13 +81,17 @@ template <real T>
   for (std::size_t k = 0; k < facet.count; ++k) {
     p[k] = facet.corners[k] - ball.centre;
   }
-  const vec3<T> area = facet.count == 4 ? quadrangle_area(p[0], p[1], p[2], p[3]) : triangle_area(p[0], p[1], p[2]);
+  const vec3<T> across = facet.count == 4 ? p[2] - p[0] : p[1] - p[0];
+  const vec3<T> along_other = facet.count == 4 ? p[3] - p[1] : p[2] - p[0];
+  const vec3<T> area = cross(across, along_other);
   const T height = dot(area, p[0]);
   const T size2 = norm2(area);
-  if (height * height >= r2 * size2 && size2 > T(0)) {
+  const bool in_plane = height * height < r2 * size2;
+  // the normal of a needle is rounding, and only its outline counts
+  if (!in_plane && size2 > norm2(across) * norm2(along_other) * T(static_cast<underlying_t<T>>(detail::needle2))) {
     return false;
   }
-  bool foot_inside = size2 > T(0);
+  bool foot_inside = in_plane;
   for (std::size_t k = 0; k < facet.count; ++k) {
     const vec3<T>& a = p[k];
     const vec3<T>& b = p[k + 1 == facet.count ? 0 : k + 1];

@@ -60,6 +60,31 @@ struct cell_shape<1> {
                                                    {4, {4, 5, 7, 6}}}};
 };
 
+/// The six edges of a tetrahedron and its determinant, taken at the vertex whose edges are shortest when they differ
+/// much: next to a grain a thousand times larger, the others differ in their last digits only.
+template <real T>
+struct tetrahedron_edges {
+  vec3<T> d1, d2, d3, d12, d13, d23;
+  T q1, q2, q3, q12, q13, q23;  ///< squared lengths
+  T determinant;
+
+  tetrahedron_edges(const vec3<T>& c0, const vec3<T>& c1, const vec3<T>& c2, const vec3<T>& c3) noexcept
+      : d1(c1 - c0), d2(c2 - c0), d3(c3 - c0), d12(c2 - c1), d13(c3 - c1), d23(c3 - c2),
+        q1(norm2(d1)), q2(norm2(d2)), q3(norm2(d3)), q12(norm2(d12)), q13(norm2(d13)), q23(norm2(d23)),
+        determinant(triple(d1, d2, d3)) {
+    const T at0 = q1 * q2 * q3;
+    const T at1 = q1 * q12 * q13;
+    const T at2 = q2 * q12 * q23;
+    const T at3 = q3 * q13 * q23;
+    const T least = smaller(smaller(at1, at2), at3);
+    if (at0 > T(64) * least) {
+      determinant = at1 <= least   ? triple(d1, d12, d13)
+                    : at2 <= least ? triple(d2, d12, d23)
+                                   : triple(d3, d13, d23);
+    }
+  }
+};
+
 /// A cell in the frame of its first centre.
 template <real T, std::size_t G>
 struct cell_frame {
@@ -144,9 +169,17 @@ struct cell_frame {
     return p;
   }
 
+  [[nodiscard]] T determinant() const noexcept
+    requires(G == 4)
+  {
+    return tetrahedron_edges<T>(body.grains[0].centre, body.grains[1].centre, body.grains[2].centre,
+                                body.grains[3].centre)
+        .determinant;
+  }
+
   [[nodiscard]] T total() const noexcept {
     if constexpr (G == 4) {
-      return tetrahedron_volume(centres[1], centres[2], centres[3]);
+      return determinant() / T(6);
     } else if constexpr (G == 3) {
       return triple(centres[1], centres[2], towards(0, 3)) * (distance[0][0] + distance[1][0] + distance[2][0]) / T(6);
     } else if constexpr (G == 2) {
@@ -161,7 +194,15 @@ struct cell_frame {
   /// Solid angle of the cell at grain i.
   [[nodiscard]] T angle(std::size_t i) const noexcept {
     constexpr std::array<std::array<std::uint8_t, 3>, 4> others{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
-    return solid_angle(towards(i, others[i][0]), towards(i, others[i][1]), towards(i, others[i][2]));
+    const vec3<T> a = towards(i, others[i][0]);
+    const vec3<T> b = towards(i, others[i][1]);
+    const vec3<T> c = towards(i, others[i][2]);
+    if constexpr (G == 4) {
+      using std::atan2;
+      return T(2) * atan2(determinant(), half_angle_cosine(a, b, c, norm(a), norm(b), norm(c)));
+    } else {
+      return solid_angle(a, b, c);
+    }
   }
 
   /// Angle between the two facets at the edge from grain i to grain j.
@@ -209,22 +250,17 @@ struct cell_frame {
 
 /// The tetrahedron, whose six edges are shared by its solid angles.
 template <real T>
-struct tetrahedron_frame {
+struct tetrahedron_frame : tetrahedron_edges<T> {
   std::array<T, 4> radius;
-  vec3<T> d1, d2, d3, d12, d13, d23;    ///< edges
-  T q1, q2, q3, q12, q13, q23;          ///< their squared lengths
-  T determinant;
+
+  using edges = tetrahedron_edges<T>;
+  using edges::d1, edges::d2, edges::d3, edges::d12, edges::d13, edges::d23;
+  using edges::q1, edges::q2, edges::q3, edges::q12, edges::q13, edges::q23;
+  using edges::determinant;
 
   explicit tetrahedron_frame(const pore_body<T>& b) noexcept
-      : radius{b.grains[0].radius, b.grains[1].radius, b.grains[2].radius, b.grains[3].radius},
-        d1(b.grains[1].centre - b.grains[0].centre),
-        d2(b.grains[2].centre - b.grains[0].centre),
-        d3(b.grains[3].centre - b.grains[0].centre),
-        d12(b.grains[2].centre - b.grains[1].centre),
-        d13(b.grains[3].centre - b.grains[1].centre),
-        d23(b.grains[3].centre - b.grains[2].centre),
-        q1(norm2(d1)), q2(norm2(d2)), q3(norm2(d3)), q12(norm2(d12)), q13(norm2(d13)), q23(norm2(d23)),
-        determinant(triple(d1, d2, d3)) {}
+      : edges(b.grains[0].centre, b.grains[1].centre, b.grains[2].centre, b.grains[3].centre),
+        radius{b.grains[0].radius, b.grains[1].radius, b.grains[2].radius, b.grains[3].radius} {}
 
   [[nodiscard]] T sectors() const noexcept {
     using std::atan2;
@@ -240,7 +276,8 @@ struct tetrahedron_frame {
            (T(2) / T(3));
   }
 
-  /// Whether no height is below the radius and no two grains overlap: then the sectors are the solid.
+  /// Whether no height is below the radius and no two grains overlap: then the sectors are the solid. Heights of a cell
+  /// whose determinant keeps few digits say nothing.
   [[nodiscard]] bool plain() const noexcept {
     const vec3<T> n3 = cross(d1, d2);
     const vec3<T> n1 = cross(d2, d3);
@@ -248,7 +285,8 @@ struct tetrahedron_frame {
     const vec3<T> n0 = cross(d12, d13);
     const T v2 = determinant * determinant;
     const auto clear = [&v2](const T& r, const vec3<T>& n) noexcept { return v2 >= r * r * norm2(n); };
-    return determinant > T(0) && clear(radius[0], n0) && clear(radius[1], n1) && clear(radius[2], n2) &&
+    const bool solid = determinant > T(0) && v2 > q1 * q2 * q3 * T(static_cast<underlying_t<T>>(needle2));
+    return solid && clear(radius[0], n0) && clear(radius[1], n1) && clear(radius[2], n2) &&
            clear(radius[3], n3) && !overlaps(q1, radius[0], radius[1]) && !overlaps(q2, radius[0], radius[2]) &&
            !overlaps(q3, radius[0], radius[3]) && !overlaps(q12, radius[1], radius[2]) &&
            !overlaps(q13, radius[1], radius[3]) && !overlaps(q23, radius[2], radius[3]);
