@@ -45,7 +45,7 @@ struct request {
   std::uint64_t seed = 1;
   bool walls = false;
   std::string periodic;
-  lattice_kind lattice = lattice_kind::simple_cubic;
+  std::string lattice;
   std::size_t cells = 8;
   std::tuple<std::size_t, std::size_t, std::size_t, std::string> tile;
   std::string out;
@@ -78,8 +78,13 @@ packing random_grains(const request& r) {
   return p;
 }
 
+const std::map<std::string, lattice_kind> lattices{{"sc", lattice_kind::simple_cubic},
+                                                   {"bcc", lattice_kind::body_centred},
+                                                   {"fcc", lattice_kind::face_centred},
+                                                   {"hcp", lattice_kind::hexagonal_close}};
+
 packing lattice(const request& r) {
-  return tetrapore::lattice(r.lattice, {r.cells, r.cells, r.cells}, r.radius, periodic_axes(r));
+  return tetrapore::lattice(lattices.at(r.lattice), {r.cells, r.cells, r.cells}, r.radius, periodic_axes(r));
 }
 
 packing copies(const request& r) {
@@ -131,12 +136,8 @@ int main(int argc, char** argv) {
     return axes.find_first_not_of("xyz") == std::string::npos ? "" : "expected some of x, y, z";
   });
   app.add_flag("--walls", r.walls, "six walls; the default")->excludes(periodic);
-  const std::map<std::string, lattice_kind> kinds{{"sc", lattice_kind::simple_cubic},
-                                                  {"bcc", lattice_kind::body_centred},
-                                                  {"fcc", lattice_kind::face_centred},
-                                                  {"hcp", lattice_kind::hexagonal_close}};
   auto* lattice_of = app.add_option("--lattice", r.lattice, "touching spheres: sc, bcc, fcc or hcp");
-  lattice_of->transform(CLI::CheckedTransformer(kinds));
+  lattice_of->check(CLI::IsMember({"sc", "bcc", "fcc", "hcp"}));
   app.add_option("--cells", r.cells, "cells of the lattice along each axis")->capture_default_str()->needs(lattice_of);
   auto* copies_of = app.add_option("--tile", r.tile, "copies along x, y, z, and the periodic packing to copy");
   copies_of->excludes(lattice_of);

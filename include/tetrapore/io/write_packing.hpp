@@ -19,8 +19,8 @@ namespace tetrapore::inline TETRAPORE_ABI {
 namespace io {
 
 struct write_packing_options {
-  int digits = 17;      ///< significant digits; 17 give back the same bits
-  std::string comment;  ///< further comment lines: who made the packing, and how
+  int digits = 17;           ///< significant digits; 17 give back the same bits
+  std::string comment = {};  ///< further comment lines: who made the packing, and how
 };
 
 /// The text of a packing: `# box x0 x1 y0 y1 z0 z1 ; units m ; columns x y z r ; N n ; periodic xz`, comments, grains.

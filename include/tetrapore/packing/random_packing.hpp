@@ -49,9 +49,9 @@ class overlap_relaxation {
     }
     velocity_.resize(n);
     force_.resize(n);
-    const auto radii = radii_of(p.grains);
-    skin_ = 0.3 * radii.mean;
-    smallest_ = radii.smallest;
+    const double mean = radii_of(p.grains).mean;
+    skin_ = 0.3 * mean;
+    farthest_ = 0.1 * mean;
   }
 
   /// True when no two spheres overlap by more than half of their inflation; false when they jam, or time is up.
@@ -97,20 +97,24 @@ class overlap_relaxation {
         step = std::max(0.5 * step, 1e-3);
         mixing = first_mixing;
       }
-      double fastest = 0;
+      // At the start spheres lie in each other, and the forces are wild: nothing moves far in one step.
+      const double fastest = farthest_ / step;
+      double travel = 0;
       for (std::size_t i = 0; i < force_.size(); ++i) {
         velocity_[i] = velocity_[i] * keep + force_[i] * (turn + step);
-        fastest = std::max(fastest, norm2(velocity_[i]));
+        const double v = norm2(velocity_[i]);
+        if (v > fastest * fastest) {
+          velocity_[i] *= fastest / std::sqrt(v);
+        }
+        travel = std::max(travel, std::min(v, fastest * fastest));
       }
-      // At the start spheres lie in each other: none moves further than a tenth of the smallest radius in one step.
-      const double travel = step * std::sqrt(fastest);
-      const double limit = std::min(1.0, 0.1 * smallest_ / travel);
-      if (moved_ + limit * travel > 0.5 * skin_) {
+      travel = step * std::sqrt(travel);
+      if (moved_ + travel > 0.5 * skin_) {
         rebuild(report);
       }
-      moved_ += limit * travel;
+      moved_ += travel;
       for (std::size_t i = 0; i < force_.size(); ++i) {
-        p_.grains[i].centre += velocity_[i] * (step * limit);
+        p_.grains[i].centre += velocity_[i] * step;
       }
     }
     return push() <= 0.0;
@@ -214,7 +218,7 @@ class overlap_relaxation {
   packing& p_;
   double inflation_;
   double skin_ = 0;
-  double smallest_ = 0;
+  double farthest_ = 0;
   double moved_ = 0;
   std::vector<vec3<double>> velocity_;
   std::vector<vec3<double>> force_;
@@ -254,7 +258,7 @@ inline std::vector<vec3<double>> random_points(std::size_t n, const box& b, rand
 /// no two overlap by more than half of the inflation. The radii are placed at random, and keep their values exactly.
 /// \par Units  [m]
 /// \par Domain  solid fractions below jamming: up to about 0.62 for a box of 10,000 grains of a narrow distribution, less
-/// for few grains between walls, more for wide distributions; periodic axes longer than two of the largest diameters
+/// for few grains between walls, more for wide distributions
 /// \par Accuracy  no overlap; the smallest gap is half of options.gap. The same radii and options give the same
 /// bits, with a compiler that does not fuse multiply and add
 /// \par Source  minimiser: Bitzek, Koskinen, Gähler, Moseler & Gumbsch, Structural relaxation made simple, PRL 97 (2006)
@@ -290,10 +294,9 @@ inline packing random_packing(std::span<const double> radii, const random_packin
   p.bounds = box{{0.0, 0.0, 0.0}, a * edge};
   p.periodic = options.periodic;
   for (std::size_t k = 0; k < 3; ++k) {
-    const double needed = options.periodic[k] ? 4.0 * largest : 2.0 * largest;
-    if (!(p.bounds->hi[k] > needed * (1.0 + options.gap))) {
+    if (!(p.bounds->hi[k] > 2.0 * largest * (1.0 + options.gap))) {
       throw parameter_error("aspect", "a box of " + std::to_string(p.bounds->hi[k] / largest) + " largest radii",
-                            "one of more than " + std::to_string(needed / largest));
+                            "one that holds the largest grain");
     }
   }
 

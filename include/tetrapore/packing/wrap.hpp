@@ -159,16 +159,21 @@ inline wrap_report wrap(packing& p, double tolerance = 1e-9) {
   }
 
   const detail::coincidence_search search(p.grains, d, reach);
-  std::vector<std::uint8_t> removed(p.grains.size(), 0);
+  std::vector<std::array<std::size_t, 2>> repeats;  // later grain, earlier grain
   for (std::size_t i = 0; i < p.grains.size(); ++i) {
     if (may_repeat[i] == 0) {
       continue;
     }
     search.around(i, [&](std::size_t j) {
       if (p.grains[i].radius == p.grains[j].radius && given_apart(i, j)) {
-        removed[std::max(i, j)] = 1;
+        repeats.push_back({std::max(i, j), std::min(i, j)});
       }
     });
+  }
+  std::sort(repeats.begin(), repeats.end());
+  std::vector<std::uint8_t> removed(p.grains.size(), 0);
+  for (const auto& [later, earlier] : repeats) {  // only a grain that stays makes another one its image
+    removed[later] |= static_cast<std::uint8_t>(removed[earlier] == 0);
   }
   std::size_t kept = 0;
   for (std::size_t i = 0; i < p.grains.size(); ++i) {
