@@ -1,0 +1,188 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# primary_drainage_test.sh FOLDER: runs the main job, the program FOLDER/primary_drainage, on small packings with every
+# option and every bad input, and checks the keys on stdout, the files, the messages and the exit codes.
+set -uo pipefail
+binary=$(realpath "$1")/primary_drainage
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+failures=0
+
+fail() {
+  echo "FAILED: $*"
+  failures=$((failures + 1))
+}
+
+# 343 grains on a shaken lattice in the unit box: "box", then x y z r.
+make_packing() {
+  awk 'BEGIN {
+    s = 1; n = 7
+    if (ARGV[1] == "box") print "# box 0 1 0 1 0 1"
+    for (i = 0; i < n; ++i) for (j = 0; j < n; ++j) for (k = 0; k < n; ++k) {
+      for (m = 0; m < 4; ++m) { s = (s * 16807) % 2147483647; u[m] = s / 2147483647 - 0.5 }
+      r = 0.46 / n * (1 + 0.2 * u[3])
+      printf "%.9f %.9f %.9f %.9f\n", (i + 0.5 + 0.05 * u[0]) / n, (j + 0.5 + 0.05 * u[1]) / n, (k + 0.5 + 0.05 * u[2]) / n, r
+    }
+  }' "$1" </dev/null
+}
+make_packing box >beads.txt
+make_packing none >no_box.txt
+
+keys="grains pores throats hidden porosity volume_defect entry_ok entry_gap_limited entry_merged entry_no_hole entry_dry \
+entry_closed entry_refused pc_s90 pc_s70 pc_s50 pc_s30 residual_saturation residual_interior trapped_clusters \
+van_genuchten_alpha van_genuchten_n fit_rms seconds_read seconds_tessellation seconds_laws seconds_invasion seconds_write \
+peak_rss_mb"
+files="events.csv grains.vtp phases phases.pvd phases_s40.png pores.vtu retention.csv retention.svg sizes.csv"
+
+value() { sed -n "s/^$1=//p" stdout; }
+holds() { awk -v x="$1" "BEGIN { exit !(x $2) }"; }
+expect() { holds "$(value "$1")" "$2" || fail "$title: $1=$(value "$1"), expected $2"; }
+
+# runs TITLE ARGUMENTS…: must succeed, with the keys in their order and all files.
+runs() {
+  title=$1
+  shift
+  rm -rf out
+  local begin end
+  begin=$(date +%s.%N)
+  "$binary" "$@" --out out >stdout 2>stderr || fail "$title: exit code $? ($(tail -n 1 stderr))"
+  end=$(date +%s.%N)
+  wall=$(awk -v a="$begin" -v b="$end" 'BEGIN { print b - a }')
+  local found wanted=$keys
+  found=$(sed -n 's/^\([a-z0-9_]*\)=.*/\1/p' stdout | tr '\n' ' ')
+  case " $* " in *" --density "*) wanted=${keys/trapped_clusters/trapped_clusters bond_number} ;; esac
+  [ "$(echo $found)" = "$(echo $wanted)" ] || fail "$title: keys are: $found"
+  [ "$(cd out && echo *)" = "$files" ] || fail "$title: files are: $(cd out && echo *)"
+  [ -z "$(find out -name '*.part')" ] || fail "$title: a part was left"
+  expect volume_defect "< 1e-12"
+  local throats
+  throats=$(grep -c '^throat,.*,\(ok\|dry_corner\|gap_limited\|no_hole\|closed\|not_covered\|invalid_input\|not_converged\)$' out/sizes.csv)
+  expect entry_ok "+ $(value entry_gap_limited) + $(value entry_no_hole) + $(value entry_dry) + $(value entry_closed) + $(value entry_refused) == $throats"
+  [ "$(grep -c '^pore,' out/sizes.csv)" = "$(value pores)" ] || fail "$title: sizes.csv has another number of pores"
+  # the curve never falls back, and ends where the events do
+  awk -F, 'NR > 2 && ($1 < p || $3 > s) { exit 1 } { p = $1; s = $3 }' out/retention.csv || fail "$title: the curve is not monotonic"
+  [ "$(tail -n 1 out/retention.csv | cut -d, -f5)" = "$(($(wc -l <out/events.csv) - 1))" ] || fail "$title: events and curve differ"
+  [ "$(head -c 8 out/phases_s40.png | od -An -tx1 | tr -d ' \n')" = 89504e470d0a1a0a ] || fail "$title: no PNG"
+  for listed in $(sed -n 's/.*file="\([^"]*\)".*/\1/p' out/phases.pvd); do
+    [ -s "out/$listed" ] || fail "$title: phases.pvd lists $listed, which is not there"
+  done
+  if command -v xmllint >/dev/null; then
+    xmllint --noout out/retention.svg out/phases.pvd || fail "$title: XML"
+  fi
+}
+
+# refuses TITLE MESSAGE ARGUMENTS…: must exit with 2, say MESSAGE (a regular expression), and write nothing.
+refuses() {
+  title=$1
+  local message=$2 code=0
+  shift 2
+  rm -rf out
+  "$binary" "$@" >stdout 2>stderr || code=$?
+  [ "$code" = 2 ] || fail "$title: exit code $code, expected 2"
+  grep -Eq -- "$message" stderr || fail "$title: said '$(cat stderr)', expected '$message'"
+  [ ! -s stdout ] || fail "$title: wrote on stdout"
+  [ ! -e out ] && [ ! -e primary_drainage_out ] || fail "$title: wrote files"
+}
+
+# every option ---------------------------------------------------------------------------------------------------------
+
+runs "defaults" beads.txt
+[ "$(value grains)" = 343 ] || fail "grains=$(value grains)"
+[ "$(value hidden)" = 0 ] || fail "hidden=$(value hidden)"
+expect residual_saturation "> 0"
+expect pc_s50 "> 1"
+sum=$(awk -F= '/^seconds_/ { s += $2 } END { print s }' stdout)
+holds "$sum" "< $wall" && holds "$sum" "> 0.95 * $wall - 0.02" || fail "seconds add up to $sum of $wall"
+base=$(value pc_s50)
+
+runs "tension" beads.txt --surface-tension 0.036
+[ "$(value pc_s50)" = "$base" ] || fail "p_c r/sigma depends on sigma: $(value pc_s50), $base"
+runs "scale" beads.txt --scale 0.0009765625
+[ "$(value pc_s50)" = "$base" ] || fail "p_c r/sigma depends on the unit of length: $(value pc_s50), $base"
+runs "angle" beads.txt --contact-angle 30
+expect pc_s50 "< $base"
+runs "inscribed" beads.txt --entry inscribed
+expect entry_gap_limited "== 0"
+expect pc_s50 "> $base"
+runs "merged" beads.txt --gap-limited merged
+expect pc_s50 ">= $base"
+runs "refused" beads.txt --gap-limited refused
+runs "no trapping" beads.txt --no-trapping
+expect residual_saturation "== 0"
+expect trapped_clusters "== 0"
+runs "faces" beads.txt --inlet z_min --outlet z_max
+runs "periodic" beads.txt --periodic xz
+expect pores "> 0"
+runs "no walls" beads.txt --no-walls
+runs "no box" no_box.txt
+grep -q "walls touch the outermost grains" stderr || fail "the tight box is not mentioned"
+runs "density, small" beads.txt --density 1000 --scale 1e-5
+expect bond_number "> 0"
+! grep -q "gravity matters" stderr || fail "gravity does not matter for grains of a micrometre"
+runs "density, large" beads.txt --density 1000
+grep -q "gravity matters" stderr || fail "gravity matters for grains of centimetres"
+
+"$binary" --help >stdout 2>stderr || fail "help: exit code $?"
+for option in --surface-tension --contact-angle --entry --gap-limited --inlet --outlet --periodic --no-walls --no-trapping --scale --density --out; do
+  grep -q -- "$option" stdout || fail "help does not name $option"
+done
+
+# every bad command line -----------------------------------------------------------------------------------------------
+
+refuses "unknown option" "surprise" beads.txt --surprise --out out
+refuses "missing value" "--surface-tension" beads.txt --out out --surface-tension
+refuses "no number" "--surface-tension: found \"water\", expected a number above 0" beads.txt --surface-tension water --out out
+refuses "zero tension" "--surface-tension: found \"0\"" beads.txt --surface-tension 0 --out out
+refuses "angle of 90" "--contact-angle: found \"90\", expected a number from 0 to below 90" beads.txt --contact-angle 90 --out out
+refuses "angle below 0" "--contact-angle: found \"-1\"" beads.txt --contact-angle=-1 --out out
+refuses "NaN" "--contact-angle: found \"nan\"" beads.txt --contact-angle nan --out out
+refuses "law" "--entry: found \"mps\", expected one of msp, inscribed" beads.txt --entry mps --out out
+refuses "gap" "--gap-limited: found \"clamp\"" beads.txt --gap-limited clamp --out out
+refuses "face" "--inlet: found \"top\", expected one of x_min" beads.txt --inlet top --out out
+refuses "inlet = outlet" "--outlet: found \"y_max\", expected another face than the inlet" beads.txt --outlet y_max --out out
+refuses "axes" "--periodic: found \"xw\"" beads.txt --periodic xw --out out
+refuses "inlet on a periodic axis" "--inlet: found \"y_max\", expected a face across which" beads.txt --periodic y --out out
+refuses "periodic without a box" "periodic axes and no box" no_box.txt --periodic x --out out
+refuses "scale" "--scale: found \"0\"" beads.txt --scale 0 --out out
+refuses "density" "--density: found \"-1\"" beads.txt --density=-1 --out out
+refuses "out is a file" "--out: found \"beads.txt\"" beads.txt --out beads.txt
+
+# every bad packing ----------------------------------------------------------------------------------------------------
+
+bad() { # bad TITLE MESSAGE < file
+  cat >bad.txt
+  refuses "$1" "$2" bad.txt --out out
+}
+refuses "missing file" "absent.txt: found .*No such file" absent.txt --out out
+refuses "a folder" "\.: found" . --out out
+bad "empty file" "bad.txt.*expected" </dev/null
+sed '9s/.*/0.1 0.2 abc 0.01/' beads.txt | bad "text for a number" "bad.txt:9: found .*abc"
+sed '9s/.*/0.1 nan 0.3 0.01/' beads.txt | bad "NaN" "bad.txt:9: found"
+sed '9s/.*/0.1 inf 0.3 0.01/' beads.txt | bad "infinity" "bad.txt:9: found"
+sed '9s/[^ ]*$/0/' beads.txt | bad "radius 0" "bad.txt:9: found radius 0"
+sed '9s/[^ ]*$/-0.1/' beads.txt | bad "negative radius" "bad.txt:9: found radius -0.1"
+sed '9s/ [^ ]*$//' beads.txt | bad "a column missing" "bad.txt:9: found"
+head -n 4 beads.txt | bad "three grains" "found 3, expected at least 4"
+awk '{ if (NR > 1) $3 = 0.5; print }' beads.txt | bad "coplanar" "plane"
+sed '9s/^[^ ]*/1.5/' beads.txt | bad "centre outside" "grain 7: found centre x = 1.5, expected a centre inside the box"
+{ cat beads.txt; sed -n 9p beads.txt; } | bad "duplicate" "grain"
+sed '1s/.*/# box 1 0 0 1 0 1/' beads.txt | bad "box inverted" "box"
+{ head -n 5 beads.txt; head -c 100000000 /dev/zero | tr '\0' '1'; } | bad "a line of 100 MB" "bad.txt:6: found"
+head -c 100 /dev/zero >cut.xyzd
+refuses "truncated binary" "cut.xyzd" cut.xyzd --out out
+
+# a place that cannot be written ---------------------------------------------------------------------------------------
+
+touch occupied
+code=0
+"$binary" beads.txt --out occupied/below >stdout 2>stderr || code=$?
+[ "$code" = 1 ] || fail "unwritable folder: exit code $code, expected 1"
+grep -q "occupied" stderr || fail "unwritable folder: said $(cat stderr)"
+[ ! -s stdout ] || fail "unwritable folder: wrote on stdout"
+
+if [ "$failures" -gt 0 ]; then
+  echo "$failures failures"
+  exit 1
+fi
+echo "ok"
