@@ -7,7 +7,6 @@
 
 #include <array>
 #include <cstddef>
-#include <span>
 
 /// \file
 /// Openings from radii and distances, from a throat, from regular shapes, and from two openings that share a gap.
@@ -311,27 +310,6 @@ template <real T>
   }
   detail::reframe(merged);
   return {merged, opening_status::ok};
-}
-
-/// A ring of discs given by their centres, counter-clockwise, in any plane frame. \par Units  [m]
-template <real T>
-[[nodiscard]] outcome<opening<T>, opening_status> ring_from_circles(std::span<const vec2<T>> centres,
-                                                                    std::span<const T> radii) noexcept {
-  if (centres.size() < 3 || centres.size() != radii.size()) {
-    return {{}, opening_status::invalid_input};
-  }
-  if (centres.size() > opening<T>::max_sides) {
-    return {{}, opening_status::too_many_sides};
-  }
-  std::size_t smallest = 0;
-  for (std::size_t i = 1; i < radii.size(); ++i) {
-    smallest = radii[i] < radii[smallest] ? i : smallest;
-  }
-  opening<T> o;
-  for (std::size_t i = 0; i < centres.size(); ++i) {
-    o.add_disc(centres[i] - centres[smallest], radii[i]);
-  }
-  return {o, opening_status::ok};
 }
 
 }  // namespace tetrapore::inline TETRAPORE_ABI

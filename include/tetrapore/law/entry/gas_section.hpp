@@ -158,7 +158,7 @@ template <real T>
 [[nodiscard]] T segment_of(const T& y, const T& x, const T& e) noexcept {
   const T t = y / x;
   const T t2 = t * t;
-  if (t2 < T(0.01) && x > T(0)) {
+  if (t2 < T(0.01) && e * e < T(1)) {
     T sum = T(0);
     for (int k = 10; k >= 1; --k) {
       sum = T(static_cast<underlying_t<T>>(2 * k) / static_cast<underlying_t<T>>(2 * k + 1)) - t2 * sum;
@@ -174,7 +174,6 @@ struct ring_frame {
   const opening<T>* ring;
   contact<T> wet;
   std::array<gap_frame<T>, N> gaps;
-  std::array<bool, N> reflex;  ///< the corner of the ring at this disc is wider than π
   T turning{};                 ///< 2π minus what the ends of the gaps turn
   T least{};                   ///< the largest of the least radii [m]
   std::size_t widest = 0;      ///< the gap that sets it
@@ -229,9 +228,6 @@ struct ring_frame {
     }
     for (std::size_t k = 0; k < count(); ++k) {
       close_gap(k);
-      if constexpr (N != 3) {
-        reflex[k] = is_disc(k) && cross(towards(k, previous(k)), towards(k, next(k))) > T(0);
-      }
     }
     return entry_status::ok;
   }
@@ -248,6 +244,18 @@ struct ring_frame {
   /// From the centre of disc k to the neighbouring corner of the ring.
   [[nodiscard]] vec2<T> towards(std::size_t k, std::size_t neighbour) const noexcept {
     return is_disc(neighbour) ? side(neighbour).point - side(k).point : -side(neighbour).normal;
+  }
+
+  /// The wetted angle of a disc differs from the angle φ of the ring there by less than π.
+  [[nodiscard]] T unwound(std::size_t k, const T& e) const noexcept {
+    using std::atan2;
+    const vec2<T> after = towards(k, next(k));
+    const vec2<T> before = towards(k, previous(k));
+    T corner = atan2(cross(after, before), dot(after, before));
+    if (corner < T(0)) {
+      corner = corner + T(2 * pi<T>);
+    }
+    return e < corner - T(pi<T>) ? e + T(2 * pi<T>) : e;
   }
 
   void close_gap(std::size_t k) noexcept {
@@ -358,10 +366,8 @@ struct ring_frame {
         const T y = -cross(out.enter[p], out.leave[k]);
         const T x = square + dot(out.enter[p], out.leave[k]);
         T e = T(2) * atan2(y, x);
-        if constexpr (N != 3) {
-          if (reflex[k] && e < T(0)) {
-            e = e + T(2 * pi<T>);
-          }
+        if (e < T(0)) {
+          e = unwound(k, e);
         }
         area = area - square * segment_of(y, x, e);
         angles = angles + e;

@@ -4,7 +4,9 @@
 #include "tetrapore/law/entry/gas_section.hpp"
 #include "tetrapore/law/entry/inscribed_circle.hpp"
 
-#include <type_traits>
+#include <array>
+#include <cstddef>
+#include <cstdint>
 
 namespace tetrapore::inline TETRAPORE_ABI {
 
@@ -46,18 +48,18 @@ struct sub_ring {
     }
     return s;
   }
-  /// The sides from `first` through `last`, closed by a liquid gap.
-  [[nodiscard]] sub_ring part(std::size_t first, std::size_t last) const noexcept {
-    sub_ring s{};
-    for (std::size_t k = first;; k = ring.next(k)) {
-      const std::size_t n = s.ring.count++;
-      s.ring.sides[n] = ring.sides[k];
-      s.ring.gaps[n] = k == last ? gap_state::liquid : ring.gaps[k];
-      s.side[n] = side[k];
-      if (k == last) {
-        return s;
-      }
+  /// All sides but one, with a liquid gap in its place.
+  [[nodiscard]] sub_ring without(std::size_t gone) const noexcept {
+    sub_ring s = *this;
+    const std::size_t before = ring.previous(gone);
+    s.ring.gaps[before] = gap_state::liquid;
+    for (std::size_t k = gone; k + 1 < ring.count && k + 1 < opening<T>::max_sides; ++k) {
+      s.ring.sides[k] = ring.sides[k + 1];
+      s.ring.gaps[k] = s.ring.gaps[k + 1];
+      s.side[k] = side[k + 1];
     }
+    --s.ring.count;
+    return s;
   }
 };
 
@@ -199,19 +201,11 @@ template <std::floating_point T>
     }
     return worst;
   };
-  const auto without = [&](std::size_t k) {
-    auto rest = s.part(s.ring.next(k), s.ring.previous(k));
-    const auto root = root_of_ring(rest, wet);
-    s = rest;
-    return root;
-  };
   const auto root = newton(f, T(0));
   const auto behind = hidden(verdict_of(root.reason) == verdict::ok ? root.radius : f.least);
   if (behind != f.count()) {
-    auto rest = s.part(s.ring.next(behind), s.ring.previous(behind));
-    const auto smaller = root_of_ring(rest, wet);
-    s = rest;
-    return smaller;
+    s = s.without(behind);
+    return root_of_ring(s, wet);
   }
   return root;
 }
