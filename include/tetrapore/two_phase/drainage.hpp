@@ -334,10 +334,12 @@ class drainage {
   /// Gas took p: what that changes at the front.
   void advance_front(pore_id p) {
     state_.mark_fed(p);
-    expose(p);
     if constexpr (Rule::depends_on_state) {
       touched_.clear();
       rule_->touched_by(*net_, state_, p, touched_);
+    }
+    expose(p);
+    if constexpr (Rule::depends_on_state) {
       for (const throat_id t : touched_) {
         const auto& [a, b] = net_->pores(t);
         if (b.valid() && state_.is_fed(a) && state_.is_drainable(b)) {
@@ -423,7 +425,8 @@ class drainage {
       for (std::size_t k = 1; k < rivals_.size(); ++k) {
         const double a = rivals_[k].threshold.value();
         const double b = rivals_[best].threshold.value();
-        best = a < b || (a == b && rivals_[k].throat < rivals_[best].throat) ? k : best;
+        const bool tie = a == b && rivals_[best].throat > rivals_[k].throat;
+        best = a < b || tie ? k : best;
       }
       for (std::size_t k = 0; k < rivals_.size(); ++k) {
         if (narrowed || k != best) {

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// \file
+/// Everything of two-phase flow: drainage, trapping, retention curves.
+
+#include "tetrapore/two_phase/drainage.hpp"
+#include "tetrapore/two_phase/entry_rule.hpp"
+#include "tetrapore/two_phase/face_set.hpp"
+#include "tetrapore/two_phase/facet_rule.hpp"
+#include "tetrapore/two_phase/state.hpp"
+#include "tetrapore/two_phase/trapping.hpp"

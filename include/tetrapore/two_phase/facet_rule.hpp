@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "tetrapore/core/evaluate.hpp"
+#include "tetrapore/law/entry/lost_arc.hpp"
+#include "tetrapore/network/gather_opening.hpp"
+#include "tetrapore/two_phase/entry_rule.hpp"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+/// \file
+/// Thresholds from an entry law on the facets of a network, and what to do where a gap gives way first.
+
+namespace tetrapore::inline TETRAPORE_ABI {
+
+/// What stands for the threshold of a facet that the law refuses as gap_limited or no_hole.
+enum class gap_model : unsigned char {
+  lost_arc,  ///< the pressure at which the widest gap loses its arc; a lower bound, fixed
+  merged,    ///< the facet shares one meniscus with the other facet that bounds the gas at that gap; moves with the state
+  refused    ///< nothing: gas does not pass
+};
+
+[[nodiscard]] constexpr const char* describe(gap_model m) noexcept {
+  switch (m) {
+    case gap_model::lost_arc: return "lost_arc";
+    case gap_model::merged: return "merged";
+    case gap_model::refused: return "refused";
+  }
+  return "not a gap model";
+}
+
+/// How the merged facets came out: the last answer for each throat that came to the front.
+struct merge_counts {
+  std::size_t merged = 0;      ///< throats whose threshold is that of a ring of several facets
+  std::size_t at_arc = 0;      ///< of these: the ring could be entered at once when the arc was lost
+  std::size_t no_partner = 0;  ///< the network ends at the gap: the pressure of the lost arc stands
+  std::size_t no_ring = 0;     ///< the facets form no ring of at most 8 sides, or the law refuses it: the same
+  std::size_t moved = 0;       ///< throats that were asked again and gave another value
+  std::array<std::size_t, opening<double>::max_sides + 1> by_sides{};  ///< merged, by the number of sides
+};
+
+/// The thresholds of an entry law, each facet seen as an opening of its own.
+///
+/// gap_model::merged: gas waits at a facet whose widest gap loses its arc at p_arc, before the law would let it in. Once
+/// p_c > p_arc no liquid is left in that gap, and the meniscus continues through it onto the other facet that bounds the
+/// gas there. Both facets, unfolded about the edge, are one opening, which the law is asked about; where a gap of that
+/// ring in turn gives way first, the facet there joins too. With the arcs gone at p_1, p_2, … and the last ring entered at
+/// p_ring, the threshold is the largest of them all: below p_k the gap k still holds its ring of liquid and the larger
+/// meniscus does not exist; where p_ring is below that, the larger meniscus is unstable as it forms, and gas passes at
+/// p_k. Hence merged is never below lost_arc. A facet that has a threshold of its own keeps it: all of its gaps outlive
+/// it. Where the network ends at a gap, or no ring of 8 sides suffices, the pressure of the arc lost last stands, with
+/// the status lost_arc, and is counted in `merges`.
+/// \par Units  pressures [Pa]
+/// \par Thread safety  merged notes which facets each answer rested on: one invasion at a time
+/// \par Source  Princen, J. Colloid Interface Sci. 30, 69 (1969) for the arcs; the merging of facets is derived here
+template <class Law, gap_model Model = gap_aware_entry_law<Law> ? gap_model::lost_arc : gap_model::refused>
+  requires entry_law<Law> && (Model == gap_model::refused || gap_aware_entry_law<Law>)
+class facet_rule {
+ public:
+  static constexpr bool depends_on_state = Model == gap_model::merged;
+  static constexpr gap_model model = Model;
+
+  /// Asks the law about every facet.
+  template <executor E = serial>
+  facet_rule(const network& net, const Law& law, const E& cores = {})
+      : law_(law), values_(net.throat_count()), reasons_(net.throat_count()) {
+    totals_ = evaluate(
+        cores, net.throat_count(), [&](const opening<double>& o) noexcept { return asked(o); },
+        [&](std::size_t t) { return opening_at(net, throat_id(t)); },
+        [&](std::size_t t, const outcome<double, entry_status>& answer) {
+          values_[t] = answer.value;
+          reasons_[t] = answer.reason;
+        });
+    for (const entry_status s : reasons_) {
+      facets_.add(s);
+    }
+    if constexpr (depends_on_state) {
+      newest_.assign(net.throat_count(), nothing);
+      askings_.assign(net.throat_count(), 0);
+      last_.assign(net.throat_count(), account{});
+    }
+  }
+
+  [[nodiscard]] threshold_outcome threshold(const network& net, const two_phase_state& state, throat_id t) {
+    const entry_status reason = reasons_[t.index()];
+    if constexpr (depends_on_state) {
+      if (reason == entry_status::gap_limited || reason == entry_status::no_hole) {
+        const auto& [a, b] = net.pores(t);
+        if (b.valid() && state.is_gas(a) != state.is_gas(b)) {
+          return merged_threshold(net, state, t);
+        }
+        return {bracket<double>::exactly(quiet_nan<double>), reason};
+      }
+    }
+    return {bracket<double>::exactly(values_[t.index()]), reason};
+  }
+
+  /// Closed laws have nothing to settle.
+  void settle(const network&, const two_phase_state&, std::span<const throat_id>) const noexcept {}
+
+  /// The throats whose ring rested on a facet of pore p, which bounds the gas no longer.
+  void touched_by(const network& net, const two_phase_state&, pore_id p, std::vector<throat_id>& out) {
+    if constexpr (depends_on_state) {
+      for (const throat_id t : net.throats(p)) {
+        if (!t.valid()) {
+          continue;
+        }
+        for (std::uint32_t k = std::exchange(newest_[t.index()], nothing); k != nothing;) {
+          // A throat is named once, and by its last asking alone.
+          const throat_id rests = notes_[k].throat;
+          if (notes_[k].asking == askings_[rests.index()]) {
+            ++askings_[rests.index()];
+            out.push_back(rests);
+          }
+          const std::uint32_t older = notes_[k].older;
+          notes_[k].older = std::exchange(spare_, k);
+          k = older;
+        }
+      }
+    }
+  }
+
+  [[nodiscard]] const Law& law() const noexcept { return law_; }
+  /// Answers of the law for every facet alone (under lost_arc with that status in place of gap_limited and no_hole).
+  [[nodiscard]] const status_counts& facets() const noexcept { return facets_; }
+  /// The same per verdict, with the first throat of each.
+  [[nodiscard]] const tally& totals() const noexcept { return totals_; }
+  /// The law's answer for a facet alone; for a facet that came to the front under merged, its last threshold.
+  [[nodiscard]] double value(throat_id t) const noexcept { return values_[t.index()]; }
+  /// The law's reason for a facet alone.
+  [[nodiscard]] entry_status reason(throat_id t) const noexcept { return reasons_[t.index()]; }
+  [[nodiscard]] std::span<const double> values() const noexcept { return values_; }
+  [[nodiscard]] std::span<const entry_status> reasons() const noexcept { return reasons_; }
+  /// How merging came out so far.
+  [[nodiscard]] const merge_counts& merges() const noexcept { return merges_; }
+  /// Begins the counts and notes of merging anew, for another invasion.
+  void forget_merges() {
+    merges_ = {};
+    notes_.clear();
+    spare_ = nothing;
+    newest_.assign(newest_.size(), nothing);
+    last_.assign(last_.size(), account{});
+  }
+
+ private:
+  static constexpr std::uint32_t nothing = 0xffffffffU;
+
+  enum class ending : std::uint8_t { not_asked, ring, no_partner, no_ring };
+
+  /// How the last answer for a throat came out.
+  struct account {
+    ending how = ending::not_asked;
+    std::uint8_t sides = 0;
+    bool at_arc = false;
+    bool moved = false;
+  };
+
+  /// Throat t rested on a facet when it was last asked; a list per facet, newest first.
+  struct note {
+    throat_id throat;
+    std::uint32_t asking;
+    std::uint32_t older;
+  };
+
+  [[nodiscard]] outcome<double, entry_status> asked(const opening<double>& o) const noexcept {
+    if constexpr (Model == gap_model::lost_arc) {
+      return lost_arc<Law>{law_}.entry_pressure(o);
+    } else {
+      return law_.entry_pressure(o);
+    }
+  }
+
+  [[nodiscard]] threshold_outcome merged_threshold(const network& net, const two_phase_state& state, throat_id t) {
+    const std::size_t side = state.is_gas(net.pores(t)[0]) ? 0 : 1;
+    gathered_ring ring(net, net.pores(t)[side], net.slot(t, side));
+    const auto is_gas = [&](pore_id p) { return state.is_gas(p); };
+    ++askings_[t.index()];
+    double lost = 0;
+    for (;;) {
+      const auto limit = law_.first_arc_lost(ring.ring());
+      if (!limit.ok() || !(limit.value.pressure < infinity<double>)) {
+        return booked(t, lost, {ending::no_ring});
+      }
+      lost = limit.value.pressure > lost ? limit.value.pressure : lost;
+      const std::size_t before = ring.facets().size();
+      const auto grown = ring.grow(net, limit.value.gap, is_gas);
+      if (ring.facets().size() > before) {
+        take_note(t, ring.facets().back());
+      }
+      if (grown != gathered_ring::growth::grown) {
+        return booked(t, lost, {grown == gathered_ring::growth::no_partner ? ending::no_partner : ending::no_ring});
+      }
+      const auto answer = law_.entry_pressure(ring.ring());
+      if (answer.ok()) {
+        const bool at_arc = !(answer.value > lost);
+        return booked(t, at_arc ? lost : answer.value,
+                      {ending::ring, static_cast<std::uint8_t>(ring.ring().count), at_arc});
+      }
+      if (answer.reason != entry_status::gap_limited && answer.reason != entry_status::no_hole) {
+        return booked(t, lost, {ending::no_ring});
+      }
+    }
+  }
+
+  void take_note(throat_id t, throat_id rests_on) {
+    std::uint32_t k = spare_;
+    if (k != nothing) {
+      spare_ = notes_[k].older;
+    } else {
+      k = static_cast<std::uint32_t>(notes_.size());
+      notes_.emplace_back();
+    }
+    notes_[k] = {t, askings_[t.index()], std::exchange(newest_[rests_on.index()], k)};
+  }
+
+  /// Books an answer in place of the one before, and gives it.
+  threshold_outcome booked(throat_id t, double value, account now) {
+    account& last = last_[t.index()];
+    if (last.how != ending::not_asked) {
+      now.moved = last.moved || value != values_[t.index()];
+      count(last, -1);
+    }
+    count(now, +1);
+    last = now;
+    values_[t.index()] = value;
+    return {bracket<double>::exactly(value),
+            now.how == ending::ring ? entry_status::merged : entry_status::lost_arc};
+  }
+
+  void count(const account& a, int by) noexcept {
+    const auto change = [&](std::size_t& n, bool applies) { n += applies ? static_cast<std::size_t>(by) : 0; };
+    change(merges_.merged, a.how == ending::ring);
+    change(merges_.at_arc, a.at_arc);
+    change(merges_.no_partner, a.how == ending::no_partner);
+    change(merges_.no_ring, a.how == ending::no_ring);
+    change(merges_.moved, a.moved);
+    change(merges_.by_sides[a.sides], a.how == ending::ring);
+  }
+
+  Law law_;
+  std::vector<double> values_;
+  std::vector<entry_status> reasons_;
+  status_counts facets_;
+  tally totals_;
+  merge_counts merges_;
+  std::vector<std::uint32_t> newest_;  ///< per facet: the newest note
+  std::vector<note> notes_;
+  std::uint32_t spare_ = nothing;
+  std::vector<std::uint32_t> askings_;  ///< per throat: how often it was asked; its older notes hold no more
+  std::vector<account> last_;
+};
+
+}  // namespace tetrapore::inline TETRAPORE_ABI
