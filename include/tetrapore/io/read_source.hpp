@@ -117,9 +117,7 @@ class byte_source {
 /// Lines of a source, one at a time: without their end (LF or CR LF), without a UTF-8 mark at the start.
 class line_source {
  public:
-  line_source(byte_source& bytes, std::size_t longest_line) : bytes_(bytes), longest_(longest_line) {
-    block_.resize(longest_ + block_size);
-  }
+  line_source(byte_source& bytes, std::size_t longest_line) : bytes_(bytes), longest_(longest_line), block_(block_size) {}
 
   /// The next line, valid until the following call; false at the end.
   /// \throw input_error  a line longer than allowed
@@ -146,6 +144,9 @@ class line_source {
       }
       std::memmove(block_.data(), first, scanned_);
       begin_ = 0;
+      if (scanned_ == block_.size()) {
+        block_.resize(2 * block_.size());  // at most twice the longest line
+      }
       end_ = scanned_ + bytes_.read(block_.data() + scanned_, block_.size() - scanned_);
       finished_ = end_ < block_.size();
     }
@@ -169,7 +170,7 @@ class line_source {
   [[nodiscard]] std::string where(std::size_t line) const { return bytes_.name() + ":" + std::to_string(line); }
 
  private:
-  static constexpr std::size_t block_size = std::size_t{1} << 18;
+  static constexpr std::size_t block_size = std::size_t{1} << 16;
 
   [[noreturn]] void too_long() const {
     throw input_error(where(number_ + 1), "a line of more than " + std::to_string(longest_) + " bytes",

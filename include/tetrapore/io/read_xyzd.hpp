@@ -77,7 +77,7 @@ inline nfo read_nfo(byte_source& bytes, const read_options& options, read_report
 inline packing read_xyzd(byte_source& bytes, const nfo* box_file, const read_options& options, read_report& report) {
   constexpr std::size_t record = 32;
   grain_collector grains(options, report);
-  std::vector<char> block(record * 4096);
+  std::vector<char> block(record * 1024);
   std::uint64_t at = 0;
   const auto where = [&] { return bytes.name() + ": byte " + std::to_string(at); };
   for (;;) {
