@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // One law, inside a simulator of grains that knows nothing of networks: at which capillary pressure does air enter the
-// throat between three grains? One header, the standard library, and nothing to link.
+// throat between three grains? The header of the laws, the one that makes openings from spheres, and nothing to link.
 #include "tetrapore/law/entry.hpp"
+#include "tetrapore/simplex/make_opening.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -26,8 +27,8 @@ tp::sphere<double> tetrapore_sphere(const body& b) {
 }  // namespace simulator
 static_assert(tp::grain_like<simulator::body>);
 
-// A law of the user's own: p = σ cos θ (perimeter of the solid) / (area of the fluid), what a tube of the section between
-// the grains would need if its corners did not matter. It models the concept, and that is all there is to register.
+// A law of the user's own: p = σ cos θ (perimeter of the solid) / (area of the fluid), what a tube of that section would
+// need if its corners did not matter. It models the concept, and that is all there is to register.
 struct as_a_tube {
   tp::required<double> surface_tension;  // [N/m]
   double contact_angle = 0;              // [rad]

@@ -2,9 +2,9 @@
 //
 // Primary drainage: from a file of spheres to the retention curve of the packing, its pictures and its full history.
 //
-// A packing saturated with a wetting liquid is opened to gas on one face. The capillary pressure rises, and gas takes one
-// pore after the other, always through the throat that lets it in at the lowest pressure; liquid that loses its way to
-// the outlet is trapped. `primary_drainage --help` lists the options, docs/start.md says what comes out.
+// A packing saturated with a wetting liquid is opened to gas on one face. The capillary pressure rises, and gas takes
+// one pore after the other, always through the throat that lets it in at the lowest pressure; liquid that loses its way
+// to the outlet is trapped. `primary_drainage --help` lists the options, docs/start.md says what comes out.
 #include "support/drainage_files.hpp"
 #include "support/drainage_job.hpp"
 #include "support/drainage_results.hpp"
@@ -28,13 +28,15 @@ const std::filesystem::path shipped = std::filesystem::path(__FILE__).parent_pat
 // Step 1: the grains, and the box that holds them. Nothing that is wrong in the file gets past here.
 tp::packing read_grains(const drainage_job& job) {
   auto [packing, report] = tp::io::read_packing(job.packing, {.scale = job.scale, .periodic = job.periodic});
-  std::fprintf(stderr, "read %zu grains from %s (%s)\n", packing.grains.size(), report.source.c_str(), describe(report.format));
+  std::fprintf(stderr, "read %zu grains from %s (%s)\n", packing.grains.size(), report.source.c_str(),
+               describe(report.format));
   for (const std::string& warning : report.warnings) {
     std::fprintf(stderr, "warning: %s\n", warning.c_str());
   }
   if (!packing.bounds && job.walls && !packing.grains.empty()) {
     packing.bounds = support::tight_box(packing.grains);
-    std::fprintf(stderr, "the file names no box: walls touch the outermost grains (--no-walls for the hull of the centres)\n");
+    std::fprintf(stderr,
+                 "the file names no box: walls touch the outermost grains (--no-walls for the hull of the centres)\n");
   }
   tp::check(packing, job.walls);
   for (const auto& [option, f] : {std::pair{"--inlet", job.inlet}, std::pair{"--outlet", job.outlet}}) {
@@ -57,11 +59,12 @@ tp::tessellation triangulate(const tp::packing& packing, const drainage_job& job
   return mesh;
 }
 
-// Step 3: what lets gas through a throat. The law is chosen on the command line, so it is a variant here; below it, every
-// combination is a type of its own.
+// Step 3: what lets gas through a throat. The law is chosen on the command line, so it is a variant here; below it,
+// every combination is a type of its own.
 using msp = tp::mayer_stowe_princen;
-using entry_rule_of_the_job = std::variant<tp::facet_rule<msp, tp::gap_model::lost_arc>, tp::facet_rule<msp, tp::gap_model::merged>,
-                                           tp::facet_rule<msp, tp::gap_model::refused>, tp::facet_rule<tp::inscribed_circle>>;
+using entry_rule_of_the_job =
+    std::variant<tp::facet_rule<msp, tp::gap_model::lost_arc>, tp::facet_rule<msp, tp::gap_model::merged>,
+                 tp::facet_rule<msp, tp::gap_model::refused>, tp::facet_rule<tp::inscribed_circle>>;
 
 entry_rule_of_the_job thresholds(const tp::network& net, const drainage_job& job) {
   const double angle = job.contact_angle * std::numbers::pi / 180;

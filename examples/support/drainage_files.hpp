@@ -45,7 +45,8 @@ inline void write_retention(const std::filesystem::path& path, const retention& 
 }
 
 inline void write_events(const std::filesystem::path& path, const history& h) {
-  tp::io::csv_writer table(path, {"event", "burst", "pore", "throat", "p_c [Pa]", "threshold [Pa]", "status", "volume [m3]", "S"});
+  tp::io::csv_writer table(
+      path, {"event", "burst", "pore", "throat", "p_c [Pa]", "threshold [Pa]", "status", "volume [m3]", "S"});
   double drained = 0;
   for (std::size_t i = 0; i < h.events.size(); ++i) {
     const auto& e = h.events[i];
@@ -70,8 +71,9 @@ inline void write_sizes(const std::filesystem::path& path, const tp::network& ne
   table.commit();
 }
 
-/// The final state with its history: gas entered each pore at `invasion_pressure` when the saturation was `S_at_invasion`.
-inline void write_final_pores(const std::filesystem::path& path, const tp::network& net, const sizes& s, const history& h) {
+/// The final state with its history: gas entered each pore at `invasion_pressure`, when S was `S_at_invasion`.
+inline void write_final_pores(const std::filesystem::path& path, const tp::network& net, const sizes& s,
+                              const history& h) {
   std::vector<double> saturation(net.pore_count(), nan);
   double drained = 0;
   for (const auto& e : h.events) {
@@ -112,7 +114,8 @@ inline void write_phases(const std::filesystem::path& folder, const tp::network&
 }
 
 /// The curve with its fit; the pressure axis ends where four fifths of a long tail would only show noise.
-inline void plot_retention(const std::filesystem::path& path, const retention& c, const summary& s, const drainage_job& job) {
+inline void plot_retention(const std::filesystem::path& path, const retention& c, const summary& s,
+                           const drainage_job& job) {
   const double end = std::min(1.06 * c.pressure.back(), 3 * c.pressure_at(0.5 * (1 + c.saturation.back())));
   const bool kilo = end >= 5000;
   const double unit = kilo ? 1000 : 1;
@@ -134,9 +137,9 @@ inline void plot_retention(const std::filesystem::path& path, const retention& c
   };
   plot p;
   p.title = "Primary drainage of " + job.packing.filename().string();
-  p.subtitle = std::to_string(s.grains) + " grains of mean radius " + rounded(1000 * s.mean_radius) + " mm, σ = " +
-               rounded(job.surface_tension) + " N/m, θ = " + rounded(job.contact_angle) + "°, gas enters at " +
-               describe(job.inlet);
+  p.subtitle = std::to_string(s.grains) + " grains of mean radius " + rounded(1000 * s.mean_radius) +
+               " mm, σ = " + rounded(job.surface_tension) + " N/m, θ = " + rounded(job.contact_angle) +
+               "°, gas enters at " + describe(job.inlet);
   p.x_label = "saturation of the wetting phase S [–]";
   p.y_label = std::string("capillary pressure p_c [") + (kilo ? "kPa]" : "Pa]");
   p.right_label = "p_c × mean radius / σ [–]";
@@ -145,8 +148,8 @@ inline void plot_retention(const std::filesystem::path& path, const retention& c
   const std::string law = job.entry == "msp" ? "Mayer-Stowe-Princen, " + job.gap_limited : "inscribed circle";
   p.curves = {{"all pores (" + law + ")", c.saturation, in_unit(c.pressure), "#2b6cb0", "", true, 2.5},
               {"pores that touch no wall", c.interior, in_unit(c.pressure), "#2f9e63", "7 4", true, 1.8},
-              {"van Genuchten, n = " + rounded(s.fitted.n) + ", 1/α = " + rounded(1 / s.fitted.alpha) + " Pa", fit_s, fit_p,
-               "#d9534f", "2 3", false, 1.8}};
+              {"van Genuchten, n = " + rounded(s.fitted.n) + ", 1/α = " + rounded(1 / s.fitted.alpha) + " Pa", fit_s,
+               fit_p, "#d9534f", "2 3", false, 1.8}};
   if (s.residual_saturation > 0) {
     p.marks.push_back({s.residual_saturation, "trapped: S = " + rounded(s.residual_saturation)});
   }
@@ -154,7 +157,8 @@ inline void plot_retention(const std::filesystem::path& path, const retention& c
 }
 
 /// Draws the state where the saturation first fell to 0.4, or the last one where it never did.
-inline void draw_phases(const std::filesystem::path& path, const tp::network& net, const history& h, const drainage_job& job) {
+inline void draw_phases(const std::filesystem::path& path, const tp::network& net, const history& h,
+                        const drainage_job& job) {
   const snapshot* shown = &h.snapshots.back();
   for (const snapshot& s : h.snapshots) {
     if (s.saturation <= 0.4) {

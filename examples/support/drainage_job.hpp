@@ -30,8 +30,8 @@ struct drainage_job {
   std::optional<std::array<bool, 3>> periodic;  ///< axes; none: as the file says
   bool walls = true;
   bool trapping = true;
-  double scale = 1;                  ///< metres per unit of the file
-  std::optional<double> density;     ///< difference of the two fluids [kg/m³]
+  double scale = 1;               ///< metres per unit of the file
+  std::optional<double> density;  ///< difference of the two fluids [kg/m³]
   std::filesystem::path out = "primary_drainage_out";
 };
 
@@ -100,12 +100,14 @@ template <class Accepts>
   bool no_walls = false;
   bool no_trapping = false;
 
-  CLI::App app("Primary drainage of a packing of spheres: its retention curve, pictures and history.", "primary_drainage");
+  CLI::App app("Primary drainage of a packing of spheres: its retention curve, pictures and history.",
+               "primary_drainage");
   app.add_option("PACKING", packing, "file of spheres: text, CSV, LAMMPS/LIGGGHTS dump, .xyzd, pack.out, Yade export")
       ->capture_default_str();
   app.add_option("--surface-tension", tension, "surface tension [N/m]")->capture_default_str();
   app.add_option("--contact-angle", angle, "contact angle [degrees], 0 to below 90")->capture_default_str();
-  app.add_option("--entry", job.entry, "entry law: msp (Mayer-Stowe-Princen) or inscribed (circle)")->capture_default_str();
+  app.add_option("--entry", job.entry, "entry law: msp (Mayer-Stowe-Princen) or inscribed (circle)")
+      ->capture_default_str();
   app.add_option("--gap-limited", job.gap_limited,
                  "a throat whose widest gap holds no meniscus: lost_arc, merged or refused")
       ->capture_default_str();
@@ -129,8 +131,8 @@ template <class Accepts>
   const auto positive = [](double x) { return x > 0; };
   job.packing = packing;
   job.surface_tension = number_of("--surface-tension", tension, positive, "a number above 0 [N/m]");
-  job.contact_angle = number_of("--contact-angle", angle, [](double x) { return x >= 0 && x < 90; },
-                                "a number from 0 to below 90 [degrees]");
+  job.contact_angle = number_of(
+      "--contact-angle", angle, [](double x) { return x >= 0 && x < 90; }, "a number from 0 to below 90 [degrees]");
   job.entry = choice_of("--entry", job.entry, {"msp", "inscribed"});
   job.gap_limited = choice_of("--gap-limited", job.gap_limited, {"lost_arc", "merged", "refused"});
   job.inlet = face_of("--inlet", inlet);
@@ -145,7 +147,8 @@ template <class Accepts>
   job.trapping = !no_trapping;
   job.scale = number_of("--scale", scale, positive, "a number above 0 [metres per unit of the file]");
   if (app.count("--density") > 0) {
-    job.density = number_of("--density", density, [](double x) { return x >= 0; }, "a number, not negative [kg/m3]");
+    job.density = number_of(
+        "--density", density, [](double x) { return x >= 0; }, "a number, not negative [kg/m3]");
   }
   job.out = out;
   std::error_code ignored;

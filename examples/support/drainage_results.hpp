@@ -27,7 +27,7 @@ namespace support {
 namespace tp = tetrapore;
 inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-// the packing ----------------------------------------------------------------------------------------------------------
+// the packing ---------------------------------------------------------------------------------------------------------
 
 /// The smallest box that holds the grains whole.
 [[nodiscard]] inline tp::box tight_box(std::span<const tp::sphere<double>> grains) {
@@ -50,7 +50,8 @@ inline void report_protruding(const tp::packing& packing, bool walls) {
     double deepest = 0;
     for (std::size_t k = 0; k < 3 && packing.bounds && walls; ++k) {
       if (!packing.periodic[k]) {
-        deepest = std::max({deepest, g.radius - (g.centre[k] - packing.bounds->lo[k]), g.radius - (packing.bounds->hi[k] - g.centre[k])});
+        deepest = std::max({deepest, g.radius - (g.centre[k] - packing.bounds->lo[k]),
+                            g.radius - (packing.bounds->hi[k] - g.centre[k])});
       }
     }
     // A box and a radius that were rounded to nine digits meet to nine digits: that is touching, not reaching through.
@@ -58,20 +59,22 @@ inline void report_protruding(const tp::packing& packing, bool walls) {
     most = std::max(most, deepest / g.radius);
   }
   if (count > 0) {
-    std::fprintf(stderr, "%zu grains reach through a wall, by up to %.3g of their radius: what is outside is clipped\n", count, most);
+    std::fprintf(stderr, "%zu grains reach through a wall, by up to %.3g of their radius: what is outside is clipped\n",
+                 count, most);
   }
 }
 
-// sizes ----------------------------------------------------------------------------------------------------------------
+// sizes ---------------------------------------------------------------------------------------------------------------
 
-/// How the entry law answered for each throat, and how large things are. A throat with one pore is a boundary: no answer.
+/// How the entry law answered for each throat, and how large things are. A throat with one pore is a boundary and gets
+/// no answer.
 struct sizes {
-  std::vector<double> entry_pressure;         ///< [Pa] of the facet alone; infinity: closed; NaN: refused, boundary
-  std::vector<tp::entry_status> entry_status; ///< of the law itself, before --gap-limited
-  std::vector<double> throat_radius;          ///< [m] inscribed circle; 0: covered; NaN: there is none
-  std::vector<double> throat_area;            ///< [m²] of the whole facet
-  std::vector<double> pore_radius;            ///< [m] inscribed sphere; 0: covered; NaN: there is none
-  std::vector<std::int32_t> coordination;     ///< throats of a pore that lead to another pore and are not closed
+  std::vector<double> entry_pressure;          ///< [Pa] of the facet alone; infinity: closed; NaN: refused, boundary
+  std::vector<tp::entry_status> entry_status;  ///< of the law itself, before --gap-limited
+  std::vector<double> throat_radius;           ///< [m] inscribed circle; 0: covered; NaN: there is none
+  std::vector<double> throat_area;             ///< [m²] of the whole facet
+  std::vector<double> pore_radius;             ///< [m] inscribed sphere; 0: covered; NaN: there is none
+  std::vector<std::int32_t> coordination;      ///< throats of a pore that lead to another pore and are not closed
 };
 
 /// The radius of an inscribed circle or sphere.
@@ -129,7 +132,7 @@ template <class Rule>
   return s;
 }
 
-// the invasion ---------------------------------------------------------------------------------------------------------
+// the invasion --------------------------------------------------------------------------------------------------------
 
 enum class phase : std::uint8_t { gas = 0, liquid = 1, trapped_liquid = 2 };
 
@@ -153,18 +156,17 @@ struct history {
   std::vector<tp::drainage_event> events;
   std::vector<snapshot> snapshots;  ///< at falling saturations, the first and the last state among them
   tp::two_phase_state end;
-  std::size_t merged = 0;           ///< throats at the front whose threshold was that of several facets
-  double void_volume = 0;           ///< of the pores that are not reservoir [m³]
+  std::size_t merged = 0;  ///< throats at the front whose threshold was that of several facets
+  double void_volume = 0;  ///< of the pores that are not reservoir [m³]
 };
 
 /// Drains to the end and keeps the state where the saturation first falls to 0.9, 0.8, …
 template <class Rule>
   requires tp::entry_rule<Rule>
 [[nodiscard]] history drain(const tp::network& net, Rule& rule, const drainage_job& job) {
-  tp::drainage invasion(net, rule,
-                        {.inlet = job.inlet,
-                         .outlet = job.outlet,
-                         .trap = job.trapping ? tp::trapping::per_event : tp::trapping::none});
+  tp::drainage invasion(
+      net, rule,
+      {.inlet = job.inlet, .outlet = job.outlet, .trap = job.trapping ? tp::trapping::per_event : tp::trapping::none});
   history h;
   const auto keep = [&] {
     if (h.snapshots.empty() || invasion.saturation() < h.snapshots.back().saturation) {
@@ -185,7 +187,7 @@ template <class Rule>
   return h;
 }
 
-// the curve ------------------------------------------------------------------------------------------------------------
+// the curve -----------------------------------------------------------------------------------------------------------
 
 /// One row per level: the state when the burst that a pressure released has ended. The first row is the start.
 struct retention {
@@ -249,7 +251,7 @@ struct retention {
   return fit_van_genuchten(pressure, saturation, residual);
 }
 
-// the keys -------------------------------------------------------------------------------------------------------------
+// the keys ------------------------------------------------------------------------------------------------------------
 
 struct seconds {
   double read = 0;
@@ -269,7 +271,7 @@ struct summary {
   double volume_defect = 0;
   std::array<std::size_t, tp::status_counts::kinds> answers{};
   std::size_t merged = 0;
-  double pressure_unit = 0;  ///< σ over the mean radius [Pa]
+  double pressure_unit = 0;             ///< σ over the mean radius [Pa]
   std::array<double, 4> pressure_at{};  ///< at S = 0.9, 0.7, 0.5, 0.3, in that unit
   double residual_saturation = 0;
   double residual_interior = 0;
@@ -352,10 +354,11 @@ inline constexpr std::array<double, 4> levels_told{0.9, 0.7, 0.5, 0.3};
 /// that moves them: from 10 % of p_c at S = 0.5 on.
 inline void warn_of_gravity(const summary& s, const drainage_job& job) {
   if (s.gravity_ratio > 0.1) {
-    std::fprintf(stderr,
-                 "warning: gravity matters: over the sample between %s and %s it changes p_c by %.0f %% of its value at "
-                 "S = 0.5, and this drainage leaves it out (bond_number = %.3g)\n",
-                 describe(job.inlet), describe(job.outlet), 100 * s.gravity_ratio, s.bond_number);
+    std::fprintf(
+        stderr,
+        "warning: gravity matters: over the sample between %s and %s it changes p_c by %.0f %% of its value at "
+        "S = 0.5, and this drainage leaves it out (bond_number = %.3g)\n",
+        describe(job.inlet), describe(job.outlet), 100 * s.gravity_ratio, s.bond_number);
   }
 }
 

@@ -18,8 +18,8 @@ struct curve {
   std::vector<double> x;
   std::vector<double> y;
   std::string colour = "#2b6cb0";
-  std::string dashes;    ///< of the line, as SVG has them: "6 4"; empty for a full line
-  bool steps = false;    ///< y changes in jumps: across, then up
+  std::string dashes;  ///< of the line, as SVG has them: "6 4"; empty for a full line
+  bool steps = false;  ///< y changes in jumps: across, then up
   double width = 2;
 };
 
@@ -86,8 +86,9 @@ inline void write_svg(const std::filesystem::path& path, const plot& p) {
   const auto line = [&](double x1, double y1, double x2, double y2, const char* style) {
     svg << "<line x1=\"" << x1 << "\" y1=\"" << y1 << "\" x2=\"" << x2 << "\" y2=\"" << y2 << "\" " << style << "/>\n";
   };
-  svg << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" << width << "\" height=\"" << height << "\" viewBox=\"0 0 "
-      << width << ' ' << height << "\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"14\" fill=\"#222\">\n"
+  svg << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" << width << "\" height=\"" << height
+      << "\" viewBox=\"0 0 " << width << ' ' << height
+      << "\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"14\" fill=\"#222\">\n"
       << "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
       << "<clipPath id=\"frame\"><rect x=\"" << left << "\" y=\"" << top << "\" width=\"" << right - left
       << "\" height=\"" << bottom - top << "\"/></clipPath>\n";
@@ -154,8 +155,9 @@ inline void write_svg(const std::filesystem::path& path, const plot& p) {
 
   const double legend_x = left + 0.42 * (right - left);
   double legend_y = top + 26;
-  svg << "<rect x=\"" << legend_x - 12 << "\" y=\"" << top + 8 << "\" width=\"" << right - legend_x + 4 << "\" height=\""
-      << 22 * static_cast<double>(p.curves.size()) + 10 << "\" fill=\"white\" fill-opacity=\"0.9\"/>\n";
+  svg << "<rect x=\"" << legend_x - 12 << "\" y=\"" << top + 8 << "\" width=\"" << right - legend_x + 4
+      << "\" height=\"" << 22 * static_cast<double>(p.curves.size()) + 10
+      << "\" fill=\"white\" fill-opacity=\"0.9\"/>\n";
   for (const curve& c : p.curves) {
     svg << "<line x1=\"" << legend_x << "\" y1=\"" << legend_y - 5 << "\" x2=\"" << legend_x + 40 << "\" y2=\""
         << legend_y - 5 << "\" stroke=\"" << c.colour << "\" stroke-width=\"" << c.width << "\" stroke-dasharray=\""

@@ -47,7 +47,8 @@ struct view {
 /// Finds the first grain along a ray: grains in a grid of cubes.
 class grain_grid {
  public:
-  grain_grid(const std::vector<sphere<double>>& grains, const vec& lo, const vec& hi) : grains_(grains), lo_(lo), hi_(hi) {
+  grain_grid(const std::vector<sphere<double>>& grains, const vec& lo, const vec& hi)
+      : grains_(grains), lo_(lo), hi_(hi) {
     double mean = 0;
     for (const auto& g : grains) {
       mean += g.radius / static_cast<double>(grains.size());
@@ -57,7 +58,8 @@ class grain_grid {
       n_[k] = static_cast<int>(std::clamp(length / (1.7 * mean), 1.0, 400.0));
       size_[k] = length / n_[k];
     }
-    begin_.assign(static_cast<std::size_t>(n_[0]) * static_cast<std::size_t>(n_[1]) * static_cast<std::size_t>(n_[2]) + 1, 0);
+    begin_.assign(
+        static_cast<std::size_t>(n_[0]) * static_cast<std::size_t>(n_[1]) * static_cast<std::size_t>(n_[2]) + 1, 0);
     each_cell([&](std::size_t c, std::uint32_t) { ++begin_[c + 1]; });
     for (std::size_t c = 1; c < begin_.size(); ++c) {
       begin_[c] += begin_[c - 1];
@@ -146,7 +148,8 @@ class grain_grid {
       std::array<int, 3> to{};
       for (std::size_t k = 0; k < 3; ++k) {
         const double r = grains_[g].radius;
-        from[k] = std::clamp(static_cast<int>(std::floor((grains_[g].centre[k] - r - lo_[k]) / size_[k])), 0, n_[k] - 1);
+        from[k] =
+            std::clamp(static_cast<int>(std::floor((grains_[g].centre[k] - r - lo_[k]) / size_[k])), 0, n_[k] - 1);
         to[k] = std::clamp(static_cast<int>(std::floor((grains_[g].centre[k] + r - lo_[k]) / size_[k])), 0, n_[k] - 1);
       }
       for (int z = from[2]; z <= to[2]; ++z) {
@@ -302,7 +305,8 @@ class renderer {
     for (int x = -range(0); x <= range(0); ++x) {
       for (int y = -range(1); y <= range(1); ++y) {
         for (int z = -range(2); z <= range(2); ++z) {
-          const vec shift = net.region().shift({static_cast<std::int8_t>(x), static_cast<std::int8_t>(y), static_cast<std::int8_t>(z)});
+          const vec shift = net.region().shift(
+              {static_cast<std::int8_t>(x), static_cast<std::int8_t>(y), static_cast<std::int8_t>(z)});
           for (sphere<double> g : net.grains()) {
             g.centre += shift;
             bool inside = true;
@@ -342,8 +346,11 @@ class renderer {
     vec lo{far, far, far};
     vec hi{-far, -far, -far};
     for (const double u : {box_.lo[up_axis_], box_.hi[up_axis_]}) {
-      for (const auto& [a, b] : {std::pair{box_.lo[a_], box_.lo[b_]}, {box_.hi[a_], box_.lo[b_]}, {box_.lo[a_], box_.hi[b_]},
-                                 {box_.hi[a_], notch_.lo[b_]}, {notch_.lo[a_], box_.hi[b_]}}) {
+      for (const auto& [a, b] : {std::pair{box_.lo[a_], box_.lo[b_]},
+                                 {box_.hi[a_], box_.lo[b_]},
+                                 {box_.lo[a_], box_.hi[b_]},
+                                 {box_.hi[a_], notch_.lo[b_]},
+                                 {notch_.lo[a_], box_.hi[b_]}}) {
         vec c;
         c[a_] = a;
         c[b_] = b;
@@ -461,9 +468,7 @@ class renderer {
            (y > 0 && seen(x, y - 1) != mine) || (y + 1 < height_ && seen(x, y + 1) != mine);
   }
 
-  static std::uint8_t byte(double x) {
-    return static_cast<std::uint8_t>(std::lround(255 * std::clamp(x, 0.0, 1.0)));
-  }
+  static std::uint8_t byte(double x) { return static_cast<std::uint8_t>(std::lround(255 * std::clamp(x, 0.0, 1.0))); }
 
   const network& net_;
   const std::vector<std::uint8_t>& fluid_;

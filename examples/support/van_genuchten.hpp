@@ -16,7 +16,7 @@ struct van_genuchten {
   double residual = 0;
   double alpha = std::numeric_limits<double>::quiet_NaN();  ///< [1/Pa]
   double n = std::numeric_limits<double>::quiet_NaN();
-  double rms = std::numeric_limits<double>::quiet_NaN();    ///< root mean square of what S misses
+  double rms = std::numeric_limits<double>::quiet_NaN();  ///< root mean square of what S misses
 
   [[nodiscard]] double saturation(double p) const {
     return residual + (1 - residual) * std::pow(1 + std::pow(alpha * p, n), 1 / n - 1);
@@ -25,8 +25,8 @@ struct van_genuchten {
 
 /// Least squares in S over points (pressure, saturation), with the residual saturation given. Levenberg-Marquardt in
 /// ln α and ln (n − 1), so that both stay where they have a meaning. NaN where fewer than three points are given.
-[[nodiscard]] inline van_genuchten fit_van_genuchten(std::span<const double> pressure, std::span<const double> saturation,
-                                                     double residual) {
+[[nodiscard]] inline van_genuchten fit_van_genuchten(std::span<const double> pressure,
+                                                     std::span<const double> saturation, double residual) {
   van_genuchten best{.residual = residual};
   if (pressure.size() < 3) {
     return best;

@@ -10,7 +10,7 @@
 /// Networks small enough to be known by heart, made without a triangulation.
 
 /// Cells given by their vertices alone, connected where two share three vertices; a cell whose order is negative is
-/// turned. Volumes are those of the cells; void volumes and power centres are made up: 0.25 of the volume, and the index.
+/// turned. Volumes, void volumes and power centres are made up from the index of the cell.
 [[nodiscard]] inline tetrapore::network network_of(const tetrapore::domain& region,
                                                    std::vector<tetrapore::sphere<double>> grains,
                                                    const std::vector<std::array<tetrapore::vertex, 4>>& vertices) {
@@ -49,7 +49,7 @@
   return network(std::move(a), 7);
 }
 
-/// Two grains in the box [0,4] x [0,2] x [0,3]: four wedges around their axis, eight cuboids in the corners, which fill it.
+/// Two grains in the box [0,4] x [0,2] x [0,3]: four wedges around their axis and eight cuboids in the corners fill it.
 [[nodiscard]] inline tetrapore::network two_grains_in_a_box() {
   using namespace tetrapore;
   std::vector<std::array<vertex, 4>> cells;

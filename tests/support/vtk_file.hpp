@@ -165,7 +165,8 @@ class vtk_file {
     REQUIRE(offsets.size() == cells_);
     REQUIRE(connectivity.size() == static_cast<std::size_t>(offsets.back()));
     std::vector<tetrapore::vec3<double>> out;
-    for (auto i = static_cast<std::size_t>(k == 0 ? 0 : offsets[k - 1]); i < static_cast<std::size_t>(offsets[k]); ++i) {
+    for (auto i = static_cast<std::size_t>(k == 0 ? 0 : offsets[k - 1]); i < static_cast<std::size_t>(offsets[k]);
+         ++i) {
       const auto p = static_cast<std::size_t>(connectivity[i]);
       REQUIRE(p < points_);
       out.push_back({xyz[3 * p], xyz[3 * p + 1], xyz[3 * p + 2]});

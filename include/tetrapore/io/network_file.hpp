@@ -26,7 +26,7 @@
 /// | 48 | epoch, 8 bytes |
 /// | 56 | bytes that follow the header |
 /// | 64 | checksum of all bytes but these eight |
-/// | 72 | box (6 doubles), its faces (6 bytes, 2 of filling); then the arrays of `network_arrays` as they are declared |
+/// | 72 | box (6 doubles), its faces (6 bytes, 2 of filling); then the arrays of `network_arrays` in order |
 
 namespace tetrapore::inline TETRAPORE_ABI {
 namespace io {
@@ -156,8 +156,8 @@ inline void save_network(const std::filesystem::path& path, const network& net) 
 }
 
 /// Loads a network that `save_network` wrote, and validates it.
-/// \throw input_error    for a file that is absent, foreign, of another version or byte order, truncated, longer than it
-///                       says, or altered: names the byte
+/// \throw input_error    for a file that is absent, foreign, of another version or byte order, truncated, too long, or
+///                       altered: names the byte
 /// \throw network_error  where the arrays do not form a network: names the pore or throat
 [[nodiscard]] inline network load_network(const std::filesystem::path& path) {
   const auto refuse = [&](std::uint64_t byte, const std::string& found, const std::string& expected) {

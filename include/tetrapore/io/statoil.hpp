@@ -14,14 +14,14 @@
 /// and others read.
 ///
 /// Four files, numbers counted from 1; -1 stands for the inlet reservoir, 0 for the outlet:
-/// | file | one row per | columns |
-/// |---|---|---|
-/// | PREFIX_node1.dat | first row | number of pores, size of the sample along the flow, and across it twice [m] |
-/// |                  | pore | number, position x y z [m], number of links, the pores at their other ends, touches inlet (0/1), touches outlet (0/1), the numbers of the links |
-/// | PREFIX_node2.dat | pore | number, volume [m³], inscribed radius [m], shape factor, clay volume [m³] |
-/// | PREFIX_link1.dat | first row | number of links |
-/// |                  | link | number, its two pores, inscribed radius [m], shape factor, length from pore to pore [m] |
-/// | PREFIX_link2.dat | link | number, its two pores, lengths of pore 1, of pore 2 and of the link between them [m], volume [m³], clay volume [m³] |
+/// - PREFIX_node1.dat: the number of pores and the size of the sample, along the flow first [m]; then for each pore its
+///   number, x, y, z [m], number of links, the pores at their other ends, whether it touches the inlet and the outlet
+///   (0 or 1), the numbers of the links.
+/// - PREFIX_node2.dat: for each pore its number, volume [m³], inscribed radius [m], shape factor, clay volume [m³].
+/// - PREFIX_link1.dat: the number of links; then for each link its number, its two pores, inscribed radius [m], shape
+///   factor, length from pore to pore [m].
+/// - PREFIX_link2.dat: for each link its number, its two pores, the lengths of pore 1, of pore 2 and of the link between
+///   them [m], volume [m³], clay volume [m³].
 ///
 /// What the format asks and a tetrahedral network has no exact answer to is filled by these conventions:
 /// - The format's flow is along x from 0 to the first size: the axis from inlet to outlet becomes x.
@@ -214,8 +214,8 @@ inline statoil_report write_statoil(const std::filesystem::path& prefix, const n
       node1 << ' ' << l + 1;
     }
     node1 << '\n';
-    node2 << number[p] << ' ' << net.void_volume(pore_id(p)) << ' ' << g.pore_radius[p] << ' '
-          << shape / area << " 0\n";
+    node2 << number[p] << ' ' << net.void_volume(pore_id(p)) << ' ' << g.pore_radius[p] << ' ' << shape / area
+          << " 0\n";
   }
   link1 << links.size() << '\n';
   for (std::size_t l = 0; l < links.size(); ++l) {

@@ -138,8 +138,8 @@ inline void write_grid(const std::filesystem::path& path, const corner_points& c
 
 }  // namespace detail
 
-/// Writes the pores as cells: a tetrahedron between four grains, a wedge at a wall, a hexahedron at an edge or corner of
-/// the box. Across a periodic face a pore keeps its shape and sticks out of the box. Cell k is pore k.
+/// Writes the pores as cells: a tetrahedron between four grains, a wedge at a wall, a hexahedron at an edge or a corner
+/// of the box. Across a periodic face a pore keeps its shape and sticks out of the box. Cell k is pore k.
 /// \par Units   [m], as the network
 /// \param data  columns of one row per pore
 /// \throw output_error     where the file cannot be written
@@ -155,7 +155,8 @@ inline void write_pores(const std::filesystem::path& path, const network& net, s
   }
   detail::write_grid(path, corners, cells, data);
 }
-inline void write_pores(const std::filesystem::path& path, const network& net, std::initializer_list<data_column> data) {
+inline void write_pores(const std::filesystem::path& path, const network& net,
+                        std::initializer_list<data_column> data) {
   write_pores(path, net, std::span(data.begin(), data.size()));
 }
 
@@ -173,7 +174,8 @@ inline void write_throats(const std::filesystem::path& path, const network& net,
   }
   detail::write_grid(path, corners, cells, data);
 }
-inline void write_throats(const std::filesystem::path& path, const network& net, std::initializer_list<data_column> data) {
+inline void write_throats(const std::filesystem::path& path, const network& net,
+                          std::initializer_list<data_column> data) {
   write_throats(path, net, std::span(data.begin(), data.size()));
 }
 

@@ -2,11 +2,10 @@
 #pragma once
 
 /// \file
-/// All entry laws, and the openings they are asked about.
+/// All entry laws.
 
 #include "tetrapore/law/entry/concept.hpp"
 #include "tetrapore/law/entry/inscribed_circle.hpp"
 #include "tetrapore/law/entry/lost_arc.hpp"
 #include "tetrapore/law/entry/mayer_stowe_princen.hpp"
 #include "tetrapore/law/entry/mirror_sided.hpp"
-#include "tetrapore/simplex/make_opening.hpp"

@@ -21,7 +21,8 @@ TEST_CASE("a table has one header line, quotes what needs quotes, and names NaN 
   table.row(-inf, "", std::uint8_t{65});
   table.commit();
   CHECK(contents_of(folder / "t.csv") ==
-        "p_c [Pa],\"a, b\",count\n0.1,\"said \"\"no\"\"\",3\ninf,plain,-1\nnan,\"two\nlines\",18446744073709551615\n-inf,,65\n");
+        "p_c [Pa],\"a, b\",count\n0.1,\"said "
+        "\"\"no\"\"\",3\ninf,plain,-1\nnan,\"two\nlines\",18446744073709551615\n-inf,,65\n");
 }
 
 TEST_CASE("every double reads back to the last bit, whatever the locale") {
@@ -98,7 +99,8 @@ TEST_CASE("what is longer than the buffer arrives whole and in order") {
 TEST_CASE("a place that cannot be written is named, with what the system said") {
   const temporary_folder folder("refused");
   const std::string path = (folder / "absent/a.csv").string();
-  CHECK_THROWS_WITH_AS(io::output_file{path}, (path + ": found No such file or directory, expected a file that can be written").c_str(),
+  CHECK_THROWS_WITH_AS(io::output_file{path},
+                       (path + ": found No such file or directory, expected a file that can be written").c_str(),
                        io::output_error);
   CHECK_THROWS_AS(io::output_file{folder.path() / "x" / ".." / "absent" / "b"}, io::output_error);
   std::filesystem::create_directory(folder / "occupied");

@@ -94,7 +94,8 @@ TEST_CASE("a foreign file, another version and another byte order are told apart
   CHECK(with(0, "solid no").find(": byte 0:") == 0);
   CHECK(with(8, "\x0a\x0b\x0c\x0d").find(": byte 8: found the byte order") == 0);
   CHECK(with(12, "\x02").find(": byte 12: found version 2, expected version 1") == 0);
-  CHECK(with(24, std::string(8, '\x7f')).find(": byte 24:") == 0);  // more pores than there can be, nothing is allocated
+  CHECK(with(24, std::string(8, '\x7f')).find(": byte 24:") ==
+        0);  // more pores than there can be, nothing is allocated
   CHECK(with(16, std::string("\x00\x00\x00\x10", 4)).find(": byte 56:") == 0);
   CHECK(message_of(folder / "absent.tpn") == ": found No such file or directory, expected a file that can be read");
 }

@@ -47,8 +47,11 @@ TEST_CASE("the four files hold the pores between the reservoirs and the links to
   const std::vector<double> throat_radius(net.throat_count(), 0.125);
   const std::vector<double> throat_area(net.throat_count(), 0.0625);
   const auto report = io::write_statoil(folder / "chain", net,
-                                        {.pore_radius = pore_radius, .throat_radius = throat_radius,
-                                         .throat_area = throat_area, .inlet = face::x_max, .outlet = face::x_min});
+                                        {.pore_radius = pore_radius,
+                                         .throat_radius = throat_radius,
+                                         .throat_area = throat_area,
+                                         .inlet = face::x_max,
+                                         .outlet = face::x_min});
   CHECK(report.pores == 1);
   CHECK(report.links == 2);
   CHECK(report.reservoir_pores == 2);
@@ -61,7 +64,8 @@ TEST_CASE("the four files hold the pores between the reservoirs and the links to
   // the mean of grains 1 to 4, seen from the inlet x_max; links to the outlet (0) and the inlet (-1)
   CHECK(node1[1] == std::vector<double>{1, 0.5, 0.5, 0.25, 2, 0, -1, 1, 1, 1, 2});
   const double shape = 0.125 * 0.125 / (4 * 0.0625);
-  CHECK(rows_of(folder / "chain_node2.dat") == std::vector<std::vector<double>>{{1, net.void_volume(pore_id(std::size_t{1})), 0.25, shape, 0}});
+  CHECK(rows_of(folder / "chain_node2.dat") ==
+        std::vector<std::vector<double>>{{1, net.void_volume(pore_id(std::size_t{1})), 0.25, shape, 0}});
 
   const auto link1 = rows_of(folder / "chain_link1.dat");
   const auto link2 = rows_of(folder / "chain_link2.dat");
@@ -95,8 +99,11 @@ TEST_CASE("closed throats and the pores behind them are counted and left out") {
   const std::vector<double> pore_radius(3, 0.5);
   const std::vector<double> closed(net.throat_count(), 0.0);
   const auto report = io::write_statoil(folder / "chain", net,
-                                        {.pore_radius = pore_radius, .throat_radius = closed, .throat_area = closed,
-                                         .inlet = face::x_min, .outlet = face::x_max});
+                                        {.pore_radius = pore_radius,
+                                         .throat_radius = closed,
+                                         .throat_area = closed,
+                                         .inlet = face::x_min,
+                                         .outlet = face::x_max});
   CHECK(report.links == 0);
   CHECK(report.closed_throats == 2);
   CHECK(report.isolated_pores == 1);

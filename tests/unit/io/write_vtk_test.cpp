@@ -25,7 +25,7 @@ const std::vector<std::vector<std::size_t>>& faces_of(unsigned type) {
   static const std::vector<std::vector<std::size_t>> of_wedge{
       {0, 1, 2}, {3, 5, 4}, {0, 3, 4, 1}, {1, 4, 5, 2}, {2, 5, 3, 0}};
   static const std::vector<std::vector<std::size_t>> of_hexahedron{{0, 4, 7, 3}, {1, 2, 6, 5}, {0, 1, 5, 4},
-                                                                  {3, 7, 6, 2}, {0, 3, 2, 1}, {4, 5, 6, 7}};
+                                                                   {3, 7, 6, 2}, {0, 3, 2, 1}, {4, 5, 6, 7}};
   return type == tetra ? of_tetra : (type == wedge ? of_wedge : of_hexahedron);
 }
 
@@ -102,7 +102,8 @@ TEST_CASE("across a periodic face a pore keeps its shape") {
   c.images[1] = {1, 0, 0};
   c.images[3] = {0, 0, -1};
   const domain region{{{0, 0, 0}, {1, 1, 1}}, {periodic, periodic, open, open, periodic, periodic}};
-  std::vector<sphere<double>> grains{{{0.9, 0.2, 0.1}, 0.1}, {{0.1, 0.2, 0.1}, 0.1}, {{0.9, 0.4, 0.1}, 0.1}, {{0.9, 0.2, 0.8}, 0.1}};
+  std::vector<sphere<double>> grains{
+      {{0.9, 0.2, 0.1}, 0.1}, {{0.1, 0.2, 0.1}, 0.1}, {{0.9, 0.4, 0.1}, 0.1}, {{0.9, 0.2, 0.8}, 0.1}};
   network_arrays a = connect(region, grains, {c});
   const network net{std::move(a)};
   io::write_pores(folder / "pores.vtu", net, {});
