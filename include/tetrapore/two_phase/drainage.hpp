@@ -23,7 +23,9 @@
 ///   invasion.run();                                                            // or step(), step_level(), run_to(...)
 ///   invasion.state();                                                          // liquid volumes, phases, clusters
 ///   invasion.events();                                                         // the history
-///   retention_curve curve(net, invasion);                                      // two_phase/retention_curve.hpp
+///   retention_curve curve(invasion);                                           // two_phase/retention_curve.hpp
+///   auto fit = fit_van_genuchten(curve);                                       // two_phase/van_genuchten.hpp
+///   auto bytes = to_bytes(net, invasion.state());                              // two_phase/state_file.hpp
 /// \endcode
 /// A level is a burst: all the pores that gas takes at one capillary pressure. The pressure of a level is
 /// (1 + level_margin) times the lowest threshold that was open when it began.
@@ -249,7 +251,9 @@ class drainage {
       if (state_.is_outlet(p)) {
         state_.flood(p, net.void_volume(p));
       } else if (state_.is_inlet(p)) {
-        state_.invade(p);
+        if (state_.is_wet(p)) {
+          state_.invade(p);
+        }
       } else {
         initial_liquid_ += state_.liquid()[p];
         void_volume_ += net.void_volume(p);
@@ -289,6 +293,7 @@ class drainage {
 
   /// Pore p is gas connected to the inlet: its throats to drainable pores come to the front, and gas behind its other
   /// throats is connected too.
+  template <bool Asking = true>
   void expose(pore_id p) {
     const network& net = *net_;
     newly_fed_.clear();
@@ -304,7 +309,9 @@ class drainage {
           continue;
         }
         if (state_.is_drainable(to)) {
-          ask(t, to);
+          if constexpr (Asking) {
+            ask(t, to);
+          }
         } else if (state_.is_gas(to) && !state_.is_fed(to) &&
                    rule_->threshold(net, state_, t).kind() != verdict::absent) {
           state_.mark_fed(to);
@@ -515,16 +522,17 @@ class drainage {
     std::vector<pore_id> sequence;
     std::vector<planned> all;
     std::vector<std::uint32_t> group_end;
-    std::vector<pore_id> fed_before;
+    std::vector<pore_id> unfed;
     sequence.reserve(net_->pore_count());
     all.reserve(net_->pore_count());
     group_end.reserve(net_->pore_count());
     for (std::size_t i = 0; i < net_->pore_count(); ++i) {
       const pore_id p(i);
       if (state_.is_gas(p) && !state_.is_fed(p)) {
-        fed_before.push_back(p);
+        unfed.push_back(p);
       }
     }
+    old_gas_ = !unfed.empty();
     double running = state_.level() == 0 ? -infinity<double> : state_.pressure();
     while (find_next()) {
       const candidate taken = std::exchange(next_, candidate{});
@@ -546,7 +554,7 @@ class drainage {
     for (const pore_id p : sequence) {
       state_.mark_wet(p);
     }
-    for (const pore_id p : fed_before) {
+    for (const pore_id p : unfed) {
       state_.mark_unfed(p);
     }
     for (std::size_t k = 0; k < all.size(); ++k) {
@@ -573,6 +581,9 @@ class drainage {
     const entry_status reason = rule_->threshold(*net_, state_, e.throat).reason;
     record(e.pore, e.throat, e.threshold, reason);
     state_.mark_fed(e.pore);
+    if (old_gas_) {
+      expose<false>(e.pore);
+    }
     if (done_ == plan_.size() || plan_[done_].group != e.group) {
       trap_planned(e.group);
     }
@@ -601,6 +612,7 @@ class drainage {
   bool two_passes_ = false;
   bool live_ = false;
   bool search_all_ = false;
+  bool old_gas_ = false;  ///< there was gas that the inlet did not feed
   liquid_paths paths_;
   live_trapping search_;
   cut_off_sets cut_off_;

@@ -33,8 +33,6 @@ class two_phase_state {
  public:
   static constexpr std::uint32_t no_cluster = 0xffffffffU;
 
-  two_phase_state() = default;
-
   /// Saturated with liquid.
   explicit two_phase_state(const network& net)
       : two_phase_state(net, volume_field({net.arrays().void_volumes}, net.epoch())) {}
@@ -139,6 +137,9 @@ class two_phase_state {
 
  private:
   friend struct state_archive;
+  struct unfilled {};
+  explicit two_phase_state(unfilled) {}
+
   static constexpr std::uint8_t gas_bit = 1;
   static constexpr std::uint8_t trapped_bit = 2;
   static constexpr std::uint8_t inlet_bit = 4;
