@@ -246,16 +246,18 @@ struct ring_frame {
     return is_disc(neighbour) ? side(neighbour).point - side(k).point : -side(neighbour).normal;
   }
 
-  /// The wetted angle of a disc differs from the angle φ of the ring there by less than π.
-  [[nodiscard]] T unwound(std::size_t k, const T& e) const noexcept {
+  /// The wetted angle of disc k, e up to a full turn: the angle of the ring there, less those from the lines of centres
+  /// to the two contact points.
+  [[nodiscard]] T unwound(std::size_t k, const T& e, const vec2<T>& enter, const vec2<T>& leave) const noexcept {
     using std::atan2;
     const vec2<T> after = towards(k, next(k));
     const vec2<T> before = towards(k, previous(k));
-    T corner = atan2(cross(after, before), dot(after, before));
-    if (corner < T(0)) {
-      corner = corner + T(2 * pi<T>);
+    T exact = atan2(cross(after, before), dot(after, before));
+    if (exact < T(0)) {
+      exact = exact + T(2 * pi<T>);
     }
-    return e < corner - T(pi<T>) ? e + T(2 * pi<T>) : e;
+    exact = exact - atan2(cross(after, leave), dot(after, leave)) - atan2(cross(enter, before), dot(enter, before));
+    return exact < e - T(pi<T>) ? e - T(2 * pi<T>) : (exact > e + T(pi<T>) ? e + T(2 * pi<T>) : e);
   }
 
   void close_gap(std::size_t k) noexcept {
@@ -356,18 +358,19 @@ struct ring_frame {
     }
     T angles = turning;
     T area = T(0);
+    const vec2<T> origin = out.from[0];
     for (std::size_t k = 0; k < count(); ++k) {
       const std::size_t p = previous(k);
       const auto& s = side(k);
-      area = area + cross(out.to[p], out.from[k]) + cross(out.from[k], out.to[k]) +
+      area = area + cross(out.to[p] - origin, out.from[k] - origin) + cross(out.from[k] - origin, out.to[k] - origin) +
              cross(out.leave[k] - w_enter[p], w_leave[k] - out.enter[p]);
       if (s.kind == side_kind::disc) {
         const T square = s.radius * s.radius;
         const T y = -cross(out.enter[p], out.leave[k]);
         const T x = square + dot(out.enter[p], out.leave[k]);
         T e = T(2) * atan2(y, x);
-        if (e < T(0)) {
-          e = unwound(k, e);
+        if (N != 3 || e < T(0)) {
+          e = unwound(k, e, out.enter[p], out.leave[k]);
         }
         area = area - square * segment_of(y, x, e);
         angles = angles + e;
