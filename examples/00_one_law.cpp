@@ -27,8 +27,8 @@ tp::sphere<double> tetrapore_sphere(const body& b) {
 }  // namespace simulator
 static_assert(tp::grain_like<simulator::body>);
 
-// A law of the user's own: p = σ cos θ (perimeter of the solid) / (area of the fluid), what a tube of that section would
-// need if its corners did not matter. It models the concept, and that is all there is to register.
+// A law of the user's own: p = σ cos θ (perimeter of the solid) / (area of the fluid), what a tube of that section
+// would need if its corners did not matter. It models the concept, and that is all there is to register.
 struct as_a_tube {
   tp::required<double> surface_tension;  // [N/m]
   double contact_angle = 0;              // [rad]

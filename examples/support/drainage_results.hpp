@@ -153,8 +153,8 @@ struct snapshot {
 
 /// An invasion from beginning to end.
 struct history {
-  std::vector<tp::drainage_event> events;
-  std::vector<snapshot> snapshots;  ///< at falling saturations, the first and the last state among them
+  std::vector<tp::drainage_event> events{};
+  std::vector<snapshot> snapshots{};  ///< at falling saturations, the first and the last state among them
   tp::two_phase_state end;
   std::size_t merged = 0;  ///< throats at the front whose threshold was that of several facets
   double void_volume = 0;  ///< of the pores that are not reservoir [m³]
@@ -167,7 +167,7 @@ template <class Rule>
   tp::drainage invasion(
       net, rule,
       {.inlet = job.inlet, .outlet = job.outlet, .trap = job.trapping ? tp::trapping::per_event : tp::trapping::none});
-  history h;
+  history h{.end = invasion.state()};
   const auto keep = [&] {
     if (h.snapshots.empty() || invasion.saturation() < h.snapshots.back().saturation) {
       h.snapshots.push_back({invasion.saturation(), invasion.state().pressure(), phases_of(invasion.state())});

@@ -34,7 +34,6 @@ inline void write_png(const std::filesystem::path& path, const picture& p) {
   image.width = p.width;
   image.height = p.height;
   image.format = PNG_FORMAT_RGB;
-  image.flags = PNG_IMAGE_FLAG_FAST;
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
   std::vector<unsigned char> bytes(size);
   if (png_image_write_to_memory(&image, bytes.data(), &size, 0, p.pixels.data(), 0, nullptr) == 0) {

@@ -12,8 +12,8 @@ namespace tetrapore::inline TETRAPORE_ABI {
 namespace io {
 
 /// Writes a table: one header line, then rows of as many cells. Numbers read back to the last bit, whatever the locale;
-/// NaN and infinity are written as `nan` and `inf`, which pandas, NumPy, R and gnuplot read. A text with comma, quote or
-/// line break is quoted as RFC 4180 says. The file appears on `commit`.
+/// NaN and infinity are written as `nan` and `inf`, which pandas, NumPy, R and gnuplot read. A text with a comma, a
+/// quote or a line break is quoted as RFC 4180 says. The file appears on `commit`.
 /// ```
 /// csv_writer table("retention.csv", {"p_c [Pa]", "S"});
 /// table.row(pressure, saturation);

@@ -20,8 +20,8 @@
 /// - PREFIX_node2.dat: for each pore its number, volume [m³], inscribed radius [m], shape factor, clay volume [m³].
 /// - PREFIX_link1.dat: the number of links; then for each link its number, its two pores, inscribed radius [m], shape
 ///   factor, length from pore to pore [m].
-/// - PREFIX_link2.dat: for each link its number, its two pores, the lengths of pore 1, of pore 2 and of the link between
-///   them [m], volume [m³], clay volume [m³].
+/// - PREFIX_link2.dat: for each link its number, its two pores, the lengths of pore 1, of pore 2 and of the link
+///   between them [m], volume [m³], clay volume [m³].
 ///
 /// What the format asks and a tetrahedral network has no exact answer to is filled by these conventions:
 /// - The format's flow is along x from 0 to the first size: the axis from inlet to outlet becomes x.
