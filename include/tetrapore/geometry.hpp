@@ -6,6 +6,7 @@
 
 #include "tetrapore/geometry/area.hpp"
 #include "tetrapore/geometry/ball_volume.hpp"
+#include "tetrapore/geometry/disc_area.hpp"
 #include "tetrapore/geometry/domain.hpp"
 #include "tetrapore/geometry/inscribed.hpp"
 #include "tetrapore/geometry/polyhedron.hpp"

@@ -10,3 +10,4 @@
 #include "tetrapore/simplex/pore_body.hpp"
 #include "tetrapore/simplex/pore_volume.hpp"
 #include "tetrapore/simplex/throat.hpp"
+#include "tetrapore/simplex/throat_geometry.hpp"

@@ -182,7 +182,8 @@ template <real T>
 /// \par Units  [m] -> [m³]
 /// \par Domain  any position of the centre: inside, outside, on a face, an edge or a vertex; any convex polyhedron, flat
 /// ones included; an inverted one has negative volumes
-/// \par Accuracy  a few 1e-16 of (r + size of the polyhedron)³; see docs/accuracy
+/// \par Accuracy  1e-14 of (r + L)² L, with r the radius and L the size of the polyhedron (measured: 2e-16 at r = L,
+/// 8e-15 of r² L at r from L to 1000 L)
 /// \par Source  divergence theorem; the arc integral is asin(h sin φ / sqrt(h² + d²)), written as an atan2
 template <real T>
 [[nodiscard]] T ball_volume(const sphere<T>& ball, const polyhedron<T>& body) noexcept {
