@@ -98,14 +98,13 @@ void run(const drainage_job& job) {
 
   const support::history history = std::visit([&](auto& r) { return support::drain(mesh.net, r, job); }, rule);
   std::fprintf(stderr, "gas took %zu pores\n", history.events.size());
-  const support::retention curve = support::curve_of(mesh.net, history);
-  const support::summary summary = support::summarise(mesh, sizes, history, curve, job);
+  const support::summary summary = support::summarise(mesh, sizes, history, job);
   support::warn_of_gravity(summary, job);
   spent.invasion = watch.lap();
 
-  support::write_everything(job, mesh.net, sizes, history, curve, summary);
+  support::write_everything(job, mesh.net, sizes, history, summary);
   std::fprintf(stderr, "wrote %s\n", job.out.string().c_str());
-  support::print_table(curve, summary);
+  support::print_table(history.curve, summary);
   spent.write = watch.lap();
   support::print_keys(summary, spent);
 }

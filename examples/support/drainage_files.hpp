@@ -36,10 +36,12 @@ namespace support {
   return "unknown";
 }
 
-inline void write_retention(const std::filesystem::path& path, const retention& c, const summary& s) {
+/// The first row is the start; each row after it is the state when the burst that its pressure released has ended.
+inline void write_retention(const std::filesystem::path& path, const tp::retention_curve& c, const summary& s) {
   tp::io::csv_writer table(path, {"p_c [Pa]", "p_c r/sigma", "S", "S_interior", "gas_pores"});
-  for (std::size_t i = 0; i < c.pressure.size(); ++i) {
-    table.row(c.pressure[i], c.pressure[i] / s.pressure_unit, c.saturation[i], c.interior[i], c.pores[i]);
+  table.row(0, 0, 1, std::isnan(c.interior_residual()) ? nan : 1, 0);
+  for (const tp::retention_point& p : c.points()) {
+    table.row(p.pressure, p.pressure / s.pressure_unit, p.saturation, p.interior_saturation, p.events);
   }
   table.commit();
 }
@@ -113,28 +115,31 @@ inline void write_phases(const std::filesystem::path& folder, const tp::network&
   series.write();
 }
 
-/// The curve with its fit; the pressure axis ends where four fifths of a long tail would only show noise.
-inline void plot_retention(const std::filesystem::path& path, const retention& c, const summary& s,
+/// A number with four digits, as a label shows it.
+[[nodiscard]] inline std::string rounded(double x) {
+  std::array<char, 32> text{};
+  return {text.data(), static_cast<std::size_t>(std::snprintf(text.data(), text.size(), "%.4g", x))};
+}
+
+/// The curve with its fit. The pressure axis ends at three times the middle of the curve: a tail of a few small pores
+/// above it would press the rest flat.
+inline void plot_retention(const std::filesystem::path& path, const tp::retention_curve& c, const summary& s,
                            const drainage_job& job) {
-  const double end = std::min(1.06 * c.pressure.back(), 3 * c.pressure_at(0.5 * (1 + c.saturation.back())));
+  const double last = c.points().empty() ? 10 * s.pressure_unit : c.points().back().pressure;
+  const double middle = c.pressure_at(0.5 * (1 + c.residual())).value_or(last);
+  const double end = std::min(1.06 * last, 3 * middle);
   const bool kilo = end >= 5000;
   const double unit = kilo ? 1000 : 1;
-  const auto in_unit = [&](std::vector<double> p) {
-    for (double& x : p) {
-      x /= unit;
-    }
-    return p;
-  };
-  std::vector<double> fit_s;
-  std::vector<double> fit_p;
-  for (int k = 1; k <= 400; ++k) {
-    fit_p.push_back(end / unit * k / 400);
-    fit_s.push_back(s.fitted.saturation(end * k / 400));
+
+  const std::string law = job.entry == "msp" ? "Mayer-Stowe-Princen, " + job.gap_limited : "inscribed circle";
+  curve all{"all pores (" + law + ")", {1}, {0}, "#2b6cb0", "", true, 2.5};
+  curve interior{"pores that touch no wall", {1}, {0}, "#2f9e63", "7 4", true, 1.8};
+  for (const tp::retention_point& p : c.points()) {
+    all.x.push_back(p.saturation);
+    all.y.push_back(p.pressure / unit);
+    interior.x.push_back(p.interior_saturation);
+    interior.y.push_back(p.pressure / unit);
   }
-  const auto rounded = [](double x) {
-    std::array<char, 32> text{};
-    return std::string(text.data(), static_cast<std::size_t>(std::snprintf(text.data(), text.size(), "%.4g", x)));
-  };
   plot p;
   p.title = "Primary drainage of " + job.packing.filename().string();
   p.subtitle = std::to_string(s.grains) + " grains of mean radius " + rounded(1000 * s.mean_radius) +
@@ -145,11 +150,25 @@ inline void plot_retention(const std::filesystem::path& path, const retention& c
   p.right_label = "p_c × mean radius / σ [–]";
   p.right_factor = unit / s.pressure_unit;
   p.y_end = end / unit;
-  const std::string law = job.entry == "msp" ? "Mayer-Stowe-Princen, " + job.gap_limited : "inscribed circle";
-  p.curves = {{"all pores (" + law + ")", c.saturation, in_unit(c.pressure), "#2b6cb0", "", true, 2.5},
-              {"pores that touch no wall", c.interior, in_unit(c.pressure), "#2f9e63", "7 4", true, 1.8},
-              {"van Genuchten, n = " + rounded(s.fitted.n) + ", 1/α = " + rounded(1 / s.fitted.alpha) + " Pa", fit_s,
-               fit_p, "#d9534f", "2 3", false, 1.8}};
+  p.curves.push_back(std::move(all));
+  if (!std::isnan(c.interior_residual())) {
+    p.curves.push_back(std::move(interior));
+  }
+  if (s.fitted.ok()) {
+    const tp::van_genuchten& v = s.fitted.value.law;
+    curve fit{"van Genuchten, n = " + rounded(v.n) + ", 1/α = " + rounded(1 / v.alpha) + " Pa",
+              {},
+              {},
+              "#d9534f",
+              "2 3",
+              false,
+              1.8};
+    for (int k = 1; k <= 400; ++k) {
+      fit.x.push_back(v.saturation(end * k / 400));
+      fit.y.push_back(end / unit * k / 400);
+    }
+    p.curves.push_back(std::move(fit));
+  }
   if (s.residual_saturation > 0) {
     p.marks.push_back({s.residual_saturation, "trapped: S = " + rounded(s.residual_saturation)});
   }
@@ -179,14 +198,14 @@ inline void draw_phases(const std::filesystem::path& path, const tp::network& ne
 }
 
 inline void write_everything(const drainage_job& job, const tp::network& net, const sizes& s, const history& h,
-                             const retention& c, const summary& told) {
+                             const summary& told) {
   std::error_code error;
   std::filesystem::create_directories(job.out, error);
   if (error) {
     throw tp::io::output_error(job.out, error.message());
   }
-  write_retention(job.out / "retention.csv", c, told);
-  plot_retention(job.out / "retention.svg", c, told, job);
+  write_retention(job.out / "retention.csv", h.curve, told);
+  plot_retention(job.out / "retention.svg", h.curve, told, job);
   write_events(job.out / "events.csv", h);
   write_sizes(job.out / "sizes.csv", net, s);
   write_final_pores(job.out / "pores.vtu", net, s, h);

@@ -3,7 +3,6 @@
 
 #include "support/drainage_job.hpp"
 #include "support/stopwatch.hpp"
-#include "support/van_genuchten.hpp"
 
 #include "tetrapore/geometry/inscribed.hpp"
 #include "tetrapore/law/entry.hpp"
@@ -13,6 +12,8 @@
 #include "tetrapore/tessellation/tessellation.hpp"
 #include "tetrapore/two_phase/drainage.hpp"
 #include "tetrapore/two_phase/facet_rule.hpp"
+#include "tetrapore/two_phase/retention_curve.hpp"
+#include "tetrapore/two_phase/van_genuchten.hpp"
 
 #include <cstdio>
 #include <limits>
@@ -153,9 +154,10 @@ struct snapshot {
 
 /// An invasion from beginning to end.
 struct history {
-  std::vector<tp::drainage_event> events{};
-  std::vector<snapshot> snapshots{};  ///< at falling saturations, the first and the last state among them
+  std::vector<tp::drainage_event> events;
+  std::vector<snapshot> snapshots;  ///< at falling saturations, the first and the last state among them
   tp::two_phase_state end;
+  tp::retention_curve curve;
   std::size_t merged = 0;  ///< throats at the front whose threshold was that of several facets
   double void_volume = 0;  ///< of the pores that are not reservoir [m³]
 };
@@ -167,10 +169,10 @@ template <class Rule>
   tp::drainage invasion(
       net, rule,
       {.inlet = job.inlet, .outlet = job.outlet, .trap = job.trapping ? tp::trapping::per_event : tp::trapping::none});
-  history h{.end = invasion.state()};
+  std::vector<snapshot> snapshots;
   const auto keep = [&] {
-    if (h.snapshots.empty() || invasion.saturation() < h.snapshots.back().saturation) {
-      h.snapshots.push_back({invasion.saturation(), invasion.state().pressure(), phases_of(invasion.state())});
+    if (snapshots.empty() || invasion.saturation() < snapshots.back().saturation) {
+      snapshots.push_back({invasion.saturation(), invasion.state().pressure(), phases_of(invasion.state())});
     }
   };
   keep();
@@ -180,75 +182,8 @@ template <class Rule>
   }
   invasion.run();
   keep();
-  h.events = invasion.events();
-  h.end = invasion.state();
-  h.merged = rule.merges().merged;
-  h.void_volume = invasion.void_volume();
-  return h;
-}
-
-// the curve -----------------------------------------------------------------------------------------------------------
-
-/// One row per level: the state when the burst that a pressure released has ended. The first row is the start.
-struct retention {
-  std::vector<double> pressure;    ///< [Pa]
-  std::vector<double> saturation;  ///< of all pores that are not reservoir
-  std::vector<double> interior;    ///< of those that touch no wall; NaN where there are none
-  std::vector<std::size_t> pores;  ///< invaded so far
-
-  /// The pressure at which the saturation first falls to `s` or below; NaN where it never does.
-  [[nodiscard]] double pressure_at(double s) const {
-    for (std::size_t i = 0; i < saturation.size(); ++i) {
-      if (saturation[i] <= s) {
-        return pressure[i];
-      }
-    }
-    return nan;
-  }
-};
-
-[[nodiscard]] inline retention curve_of(const tp::network& net, const history& h) {
-  double interior_void = 0;
-  for (std::size_t p = 0; p < net.pore_count(); ++p) {
-    if (!h.end.is_reservoir(tp::pore_id(p)) && !net.touches_wall(tp::pore_id(p))) {
-      interior_void += net.void_volume(tp::pore_id(p));
-    }
-  }
-  retention c;
-  double drained = 0;
-  double drained_interior = 0;
-  const auto row = [&](double pressure, std::size_t pores) {
-    c.pressure.push_back(pressure);
-    c.saturation.push_back(1 - drained / h.void_volume);
-    c.interior.push_back(1 - drained_interior / interior_void);
-    c.pores.push_back(pores);
-  };
-  row(0, 0);
-  for (std::size_t i = 0; i < h.events.size(); ++i) {
-    const auto& e = h.events[i];
-    drained += e.volume;
-    drained_interior += net.touches_wall(e.pore) ? 0 : e.volume;
-    if (i + 1 == h.events.size() || h.events[i + 1].level != e.level) {
-      row(e.pressure, i + 1);
-    }
-  }
-  return c;
-}
-
-/// Van Genuchten's function through the curve at 99 saturations between 1 and the residual one.
-[[nodiscard]] inline van_genuchten fit(const retention& c) {
-  const double residual = c.saturation.back();
-  std::vector<double> pressure;
-  std::vector<double> saturation;
-  for (int k = 1; k < 100; ++k) {
-    const double s = 1 - (1 - residual) * k / 100;
-    const double p = c.pressure_at(s);
-    if (p > 0) {
-      pressure.push_back(p);
-      saturation.push_back(s);
-    }
-  }
-  return fit_van_genuchten(pressure, saturation, residual);
+  return {invasion.events(),    std::move(snapshots),  invasion.state(), tp::retention_curve(invasion),
+          rule.merges().merged, invasion.void_volume()};
 }
 
 // the keys ------------------------------------------------------------------------------------------------------------
@@ -278,7 +213,7 @@ struct summary {
   std::size_t trapped_clusters = 0;
   double bond_number = nan;
   double gravity_ratio = nan;  ///< hydrostatic difference over the height of the sample / p_c at S = 0.5
-  van_genuchten fitted;
+  tp::outcome<tp::van_genuchten_fit, tp::fit_status> fitted{{}, tp::fit_status::too_few_points};
 
   [[nodiscard]] std::size_t count(tp::entry_status s) const { return answers[static_cast<std::size_t>(s)]; }
 };
@@ -286,7 +221,7 @@ struct summary {
 inline constexpr std::array<double, 4> levels_told{0.9, 0.7, 0.5, 0.3};
 
 [[nodiscard]] inline summary summarise(const tp::tessellation& mesh, const sizes& s, const history& h,
-                                       const retention& c, const drainage_job& job) {
+                                       const drainage_job& job) {
   const tp::network& net = mesh.net;
   summary out;
   out.grains = net.grain_count();
@@ -313,7 +248,7 @@ inline constexpr std::array<double, 4> levels_told{0.9, 0.7, 0.5, 0.3};
 
   out.pressure_unit = job.surface_tension / out.mean_radius;
   for (std::size_t k = 0; k < levels_told.size(); ++k) {
-    out.pressure_at[k] = c.pressure_at(levels_told[k]) / out.pressure_unit;
+    out.pressure_at[k] = h.curve.pressure_at(levels_told[k]).value_or(nan) / out.pressure_unit;
   }
   double trapped = 0;
   double trapped_interior = 0;
@@ -344,9 +279,9 @@ inline constexpr std::array<double, 4> levels_told{0.9, 0.7, 0.5, 0.3};
       high = std::max(high, grain.centre[axis]);
     }
     out.bond_number = weight * out.mean_radius * out.mean_radius / job.surface_tension;
-    out.gravity_ratio = weight * (high - low) / c.pressure_at(0.5);
+    out.gravity_ratio = weight * (high - low) / h.curve.pressure_at(0.5).value_or(nan);
   }
-  out.fitted = fit(c);
+  out.fitted = tp::fit_van_genuchten(h.curve);
   return out;
 }
 
@@ -362,14 +297,16 @@ inline void warn_of_gravity(const summary& s, const drainage_job& job) {
   }
 }
 
-inline void print_table(const retention& c, const summary& s) {
+inline void print_table(const tp::retention_curve& c, const summary& s) {
   std::printf("%10s %12s %12s %10s %10s\n", "S", "p_c [Pa]", "p_c r/sigma", "S_interior", "gas_pores");
-  double next = 1;
-  for (std::size_t i = 0; i < c.saturation.size(); ++i) {
-    if (c.saturation[i] <= next || i + 1 == c.saturation.size()) {
-      std::printf("%10.4f %12.5g %12.4f %10.4f %10zu\n", c.saturation[i], c.pressure[i],
-                  c.pressure[i] / s.pressure_unit, c.interior[i], c.pores[i]);
-      while (next >= c.saturation[i]) {
+  double next = c.initial_saturation();
+  const auto points = c.points();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto& p = points[i];
+    if (p.saturation <= next || i + 1 == points.size()) {
+      std::printf("%10.4f %12.5g %12.4f %10.4f %10zu\n", p.saturation, p.pressure, p.pressure / s.pressure_unit,
+                  p.interior_saturation, p.events);
+      while (next >= p.saturation) {
         next -= 0.05;
       }
     }
@@ -403,9 +340,9 @@ inline void print_keys(const summary& s, const seconds& t) {
   if (!std::isnan(s.bond_number)) {
     number("bond_number", s.bond_number);
   }
-  number("van_genuchten_alpha", s.fitted.alpha);
-  number("van_genuchten_n", s.fitted.n);
-  number("fit_rms", s.fitted.rms);
+  number("van_genuchten_alpha", s.fitted.value.law.alpha);
+  number("van_genuchten_n", s.fitted.value.law.n);
+  number("fit_rms", s.fitted.value.rms);
   number("seconds_read", t.read);
   number("seconds_tessellation", t.tessellation);
   number("seconds_laws", t.laws);
