@@ -227,7 +227,7 @@ struct mayer_stowe_princen {
   required<double> surface_tension;
   double contact_angle = 0;
 
-  static constexpr double stated_accuracy = 2.5e-12;
+  static constexpr double stated_accuracy = 2.3e-13;
 
   template <real T>
   [[nodiscard]] outcome<T, entry_status> entry_pressure(const opening<T>& o) const noexcept {
