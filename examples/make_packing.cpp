@@ -120,7 +120,8 @@ void verify(const std::string& file, bool may_overlap) {
 
 int main(int argc, char** argv) {
   request r;
-  CLI::App app("Writes a packing of spheres: dense and random, a lattice, or copies of another packing.", "make_packing");
+  CLI::App app("Writes a packing of spheres: dense and random, a lattice, or copies of another packing.",
+               "make_packing");
   app.add_option("--grains", r.grains, "number of grains")->capture_default_str();
   app.add_option("--solid-fraction", r.solid_fraction, "sphere volume over box volume")->capture_default_str();
   auto* sizes = app.add_option("--sizes", r.sizes, "grading curve: CSV, diameter_mm,cumulative_mass_fraction");
@@ -141,7 +142,9 @@ int main(int argc, char** argv) {
   app.add_option("--cells", r.cells, "cells of the lattice along each axis")->capture_default_str()->needs(lattice_of);
   auto* copies_of = app.add_option("--tile", r.tile, "copies along x, y, z, and the periodic packing to copy");
   copies_of->excludes(lattice_of);
-  app.add_option("--digits", r.digits, "significant digits in the file")->capture_default_str()->check(CLI::Range(1, 17));
+  app.add_option("--digits", r.digits, "significant digits in the file")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 17));
   app.add_option("--out", r.out, "the file to write")->required();
   CLI11_PARSE(app, argc, argv);
 

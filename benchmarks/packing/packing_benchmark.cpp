@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Packings: making, tiling, checking and reading them. `error`: the largest overlap over the smaller radius, or 0, for a
-// generator; the largest difference of a coordinate, in units of the box, for a copy or a reader. `failed`: packings
+// Packings: making, tiling, checking and reading them. `error`: the largest overlap over the smaller radius, or 0, for
+// a generator; the largest difference of a coordinate, in units of the box, for a copy or a reader. `failed`: packings
 // that came out with another number of grains, a solid fraction off by more than 1e-12, or an overlap.
 
 #include "tetrapore/io/read_packing.hpp"
@@ -24,8 +24,9 @@ using namespace tetrapore;
 constexpr double solid(std::size_t n, bool periodic) { return periodic || n >= 10000 ? 0.60 : 0.57; }
 
 packing make(std::size_t n, bool periodic, std::uint64_t seed) {
-  return random_packing(uniform_radii(n, 1e-3, 0.3),
-                        {.solid_fraction = solid(n, periodic), .periodic = {periodic, periodic, periodic}, .seed = seed});
+  return random_packing(
+      uniform_radii(n, 1e-3, 0.3),
+      {.solid_fraction = solid(n, periodic), .periodic = {periodic, periodic, periodic}, .seed = seed});
 }
 
 void count_faults(benchmark::State& state, const packing& p, std::size_t n) {

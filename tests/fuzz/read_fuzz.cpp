@@ -107,7 +107,8 @@ void feed(std::string_view content) {
     }
     auto options = t.options;
     options.format = t.format;
-    expect_answer_or_setup_error([&] { examine(tetrapore::io::read_packing_from_memory(content, "fuzz.txt", options)); });
+    expect_answer_or_setup_error(
+        [&] { examine(tetrapore::io::read_packing_from_memory(content, "fuzz.txt", options)); });
   }
   if (wanted("xyzd")) {  // the bytes as the binary file, and as the text beside it
     constexpr std::array<char, 32> grain{0, 0, 0, 0, 0, 0, 0x40, 0x40, 0, 0, 0, 0, 0, 0, 0x40, 0x40,

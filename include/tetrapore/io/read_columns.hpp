@@ -145,9 +145,9 @@ inline void refuse_bad_box(const box& b, const std::string& where) {
   constexpr std::array<const char*, 3> axis_name{"x", "y", "z"};
   for (std::size_t k = 0; k < 3; ++k) {
     if (!(b.lo[k] < b.hi[k]) || !std::isfinite(b.hi[k] - b.lo[k])) {
-      throw input_error(where, "a box from " + std::to_string(b.lo[k]) + " to " + std::to_string(b.hi[k]) + " along " +
-                                   axis_name[k],
-                        "finite bounds, the lower one first");
+      throw input_error(
+          where, "a box from " + std::to_string(b.lo[k]) + " to " + std::to_string(b.hi[k]) + " along " + axis_name[k],
+          "finite bounds, the lower one first");
     }
   }
 }

@@ -46,9 +46,9 @@ enum class packing_format : unsigned char {
 class column {
  public:
   column() = default;
-  column(std::string name) : name_(std::move(name)), named_(true) {}         // NOLINT(google-explicit-constructor)
-  column(const char* name) : name_(name), named_(true) {}                    // NOLINT(google-explicit-constructor)
-  column(int position) : position_(static_cast<std::size_t>(position)) {     // NOLINT(google-explicit-constructor)
+  column(std::string name) : name_(std::move(name)), named_(true) {}      // NOLINT(google-explicit-constructor)
+  column(const char* name) : name_(name), named_(true) {}                 // NOLINT(google-explicit-constructor)
+  column(int position) : position_(static_cast<std::size_t>(position)) {  // NOLINT(google-explicit-constructor)
     if (position < 0) {
       throw parameter_error("column", std::to_string(position), "a position, 0 for the first column, or a name");
     }
@@ -77,26 +77,26 @@ struct column_map {
 /// \par Units  everything in the unit of the file, but `scale` [m per unit of the file]
 struct read_options {
   packing_format format = packing_format::automatic;
-  double scale = 1.0;                                     ///< metres per unit of the file
-  column_map columns = {};                                ///< tables only
-  std::optional<double> radius = std::nullopt;            ///< one radius for all grains of a file that gives none
-  double radius_factor = 1.0;                             ///< all radii are multiplied by it
-  std::optional<box> bounds = std::nullopt;               ///< instead of the file's box
+  double scale = 1.0;                                          ///< metres per unit of the file
+  column_map columns = {};                                     ///< tables only
+  std::optional<double> radius = std::nullopt;                 ///< one radius for all grains of a file that gives none
+  double radius_factor = 1.0;                                  ///< all radii are multiplied by it
+  std::optional<box> bounds = std::nullopt;                    ///< instead of the file's box
   std::optional<std::array<bool, 3>> periodic = std::nullopt;  ///< instead of the file's periodic axes
-  std::optional<std::size_t> snapshot = std::nullopt;     ///< dump: which time step, 0 is the first; none: the last
-  bool wrap = true;                                       ///< bring grains into the box along periodic axes
-  std::size_t longest_line = 65536;                       ///< [bytes] longer lines are refused
+  std::optional<std::size_t> snapshot = std::nullopt;  ///< dump: which time step, 0 is the first; none: the last
+  bool wrap = true;                                    ///< bring grains into the box along periodic axes
+  std::size_t longest_line = 65536;                    ///< [bytes] longer lines are refused
 };
 
 /// What was read, and what was done with it.
 struct read_report {
-  std::string source;                                 ///< file, or the name given to a block of memory
+  std::string source;  ///< file, or the name given to a block of memory
   packing_format format = packing_format::automatic;
-  std::size_t lines = 0;                              ///< lines of text, or records of a binary file
-  std::size_t grains_read = 0;                        ///< before images were removed
-  std::string box_source = "none";                    ///< "line 1", "packing.nfo", "options", "none"
-  std::size_t snapshots = 1;                          ///< time steps in the file
-  std::string time_step;                              ///< of the one that was read
+  std::size_t lines = 0;            ///< lines of text, or records of a binary file
+  std::size_t grains_read = 0;      ///< before images were removed
+  std::string box_source = "none";  ///< "line 1", "packing.nfo", "options", "none"
+  std::size_t snapshots = 1;        ///< time steps in the file
+  std::string time_step;            ///< of the one that was read
   wrap_report wrapping;
   std::vector<std::string> warnings;
 };

@@ -72,11 +72,13 @@ namespace detail {
 /// \par Units  the file's unit times options.scale, to [m]
 /// \par Accuracy  decimal numbers are read to the nearest double, whatever the locale
 /// \throw input_error      names file and line (or byte), what was found and what was expected
+/// \throw packing_error    a grain a million box lengths outside of a periodic box
 /// \throw parameter_error  an option outside its domain
 [[nodiscard]] inline read_result read_packing(const std::filesystem::path& path, const read_options& options = {}) {
   byte_source bytes(path);
   std::optional<byte_source> nfo_bytes;
-  for (const auto& beside : {std::filesystem::path(path).replace_extension(".nfo"), path.parent_path() / "packing.nfo"}) {
+  for (const auto& beside :
+       {std::filesystem::path(path).replace_extension(".nfo"), path.parent_path() / "packing.nfo"}) {
     std::error_code error;
     if (!nfo_bytes && path.extension() == ".xyzd" && std::filesystem::is_regular_file(beside, error)) {
       nfo_bytes.emplace(beside);

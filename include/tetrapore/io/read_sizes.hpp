@@ -47,8 +47,8 @@ namespace detail {
     }
     const mass_below point{metres * number_at(lines, fields[0], "the diameter"),
                            number_at(lines, fields[1], "the cumulative mass fraction")};
-    const bool rises = curve.empty() || (point.diameter >= curve.back().diameter &&
-                                         point.fraction >= curve.back().fraction);
+    const bool rises =
+        curve.empty() || (point.diameter >= curve.back().diameter && point.fraction >= curve.back().fraction);
     if (!(point.diameter > 0) || !(point.fraction >= 0 && point.fraction <= 1) || !rises) {
       throw input_error(lines.where(), shown(row), "a diameter above 0 and a fraction from 0 to 1, neither falling");
     }

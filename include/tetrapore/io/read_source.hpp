@@ -117,7 +117,8 @@ class byte_source {
 /// Lines of a source, one at a time: without their end (LF or CR LF), without a UTF-8 mark at the start.
 class line_source {
  public:
-  line_source(byte_source& bytes, std::size_t longest_line) : bytes_(bytes), longest_(longest_line), block_(block_size) {}
+  line_source(byte_source& bytes, std::size_t longest_line)
+      : bytes_(bytes), longest_(longest_line), block_(block_size) {}
 
   /// The next line, valid until the following call; false at the end.
   /// \throw input_error  a line longer than allowed

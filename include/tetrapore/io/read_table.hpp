@@ -21,10 +21,10 @@ namespace detail {
 class table_header {
  public:
   stated_box domain;
-  std::vector<std::string> names;        ///< in lower case
-  std::optional<std::uint64_t> grains;   ///< how many the file says it has
+  std::vector<std::string> names;       ///< in lower case
+  std::optional<std::uint64_t> grains;  ///< how many the file says it has
   std::size_t grains_line = 0;
-  bool open_ended = false;               ///< more columns may follow the named ones
+  bool open_ended = false;  ///< more columns may follow the named ones
 
   /// A comment, without its '#'. \throw input_error  a box that cannot be read
   void take_comment(std::string_view comment, const line_source& lines, read_report& report) {

@@ -35,8 +35,8 @@ struct write_packing_options {
   text.reserve(p.grains.size() * 80 + 256);
   const auto put = [&](double value, char after) {
     std::array<char, 40> digits{};
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general,
-                                   options.digits);
+    const auto end =
+        std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general, options.digits);
     text.append(digits.data(), end.ptr);
     text += after;
   };

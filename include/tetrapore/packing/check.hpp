@@ -114,8 +114,9 @@ inline void check_distinct(std::span<const sphere<double>> grains, const domain&
     for (; table[slot] != 0; slot = (slot + 1) & (slots - 1)) {
       const std::size_t other = table[slot] - 1;
       if (place(other) == c) {
-        throw packing_error(grain_name(i), "centre " + written(grains[i].centre) + ", that of grain " +
-                                               std::to_string(other) + (d.any_periodic() ? " modulo the box" : ""),
+        throw packing_error(grain_name(i),
+                            "centre " + written(grains[i].centre) + ", that of grain " + std::to_string(other) +
+                                (d.any_periodic() ? " modulo the box" : ""),
                             "grains at different places");
       }
     }
@@ -142,7 +143,8 @@ inline void check_triangulable(std::span<const sphere<double>> grains, const dom
   detail::check_box(d.bounds, bounded);
   for (std::size_t k = 0; k < 3; ++k) {
     if ((d.faces[2 * k] == boundary::periodic) != (d.faces[2 * k + 1] == boundary::periodic)) {
-      throw packing_error(std::string("box along ") + axis_name[k], "one periodic face", "both faces periodic, or none");
+      throw packing_error(std::string("box along ") + axis_name[k], "one periodic face",
+                          "both faces periodic, or none");
     }
   }
   if (grains.size() < 4) {

@@ -16,10 +16,10 @@
 namespace tetrapore::inline TETRAPORE_ABI {
 
 enum class lattice_kind : unsigned char {
-  simple_cubic,         ///< 1 sphere per cell, 6 contacts, solid fraction π/6
-  body_centred,         ///< 2 per cell, 8 contacts, π√3/8
-  face_centred,         ///< 4 per cell, 12 contacts, π/√18
-  hexagonal_close       ///< 4 per rectangular cell, 12 contacts, π/√18
+  simple_cubic,    ///< 1 sphere per cell, 6 contacts, solid fraction π/6
+  body_centred,    ///< 2 per cell, 8 contacts, π√3/8
+  face_centred,    ///< 4 per cell, 12 contacts, π/√18
+  hexagonal_close  ///< 4 per rectangular cell, 12 contacts, π/√18
 };
 
 /// The repeating cell of a lattice of spheres of radius 1.

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 /// \file
@@ -30,6 +31,8 @@ class size_class_grids {
   /// \param region    box of the packing; grains may lie outside
   /// \param periodic  axes along which it repeats
   /// \param reach     [m] pairs whose surfaces are closer than this are found
+  /// \throw packing_error  along a periodic axis: a grain more than 50 box lengths away, or grains and reach of more
+  ///                       than 20
   size_class_grids(std::span<const sphere<double>> grains, const box& region, const std::array<bool, 3>& periodic,
                    double reach)
       : grains_(grains), region_(region), periodic_(periodic), reach_(reach) {
@@ -47,6 +50,7 @@ class size_class_grids {
       if (grids_.size() <= c) {
         grids_.resize(c + 1);
       }
+      check_place(i, largest);
       grids_[c].largest = std::max(grids_[c].largest, grains[i].radius);
       ++grids_[c].count;
     }
@@ -83,6 +87,20 @@ class size_class_grids {
     std::vector<std::uint32_t> member;
     std::vector<std::array<std::int16_t, 3>> lap;
   };
+
+  /// Images are counted in int8: places must be near enough for that.
+  void check_place(std::size_t i, double largest) const {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double length = region_.size()[k];
+      const double away = std::abs(grains_[i].centre[k] - region_.lo[k]);
+      if (periodic_[k] && !(away <= 50.0 * length && 2.0 * largest + reach_ <= 20.0 * length)) {
+        throw packing_error("grain " + std::to_string(i),
+                            "a place or a reach of " + std::to_string(away / length) + " and " +
+                                std::to_string((2.0 * largest + reach_) / length) + " box lengths along " + "xyz"[k],
+                            "at most 50 and 20; wrap the packing first");
+      }
+    }
+  }
 
   void fill(std::size_t c) {
     auto& g = grids_[c];
@@ -189,7 +207,8 @@ class size_class_grids {
                                      b.centre.z - a.centre.z + lap[2] * size.z};
             const double near = a.radius + b.radius + reach_;
             if (norm2(apart) < near * near) {
-              f(close_pair{i, j,
+              f(close_pair{i,
+                           j,
                            {static_cast<std::int8_t>(lap[0]), static_cast<std::int8_t>(lap[1]),
                             static_cast<std::int8_t>(lap[2])}},
                 apart);

@@ -18,8 +18,8 @@ namespace tetrapore::inline TETRAPORE_ABI {
 /// \par Units  [m]
 struct packing {
   std::vector<sphere<double>> grains;
-  std::optional<box> bounds;         ///< none: the packing fills the hull of its centres
-  std::array<bool, 3> periodic{};    ///< axes along which the box repeats; needs `bounds`
+  std::optional<box> bounds;       ///< none: the packing fills the hull of its centres
+  std::array<bool, 3> periodic{};  ///< axes along which the box repeats; needs `bounds`
 };
 
 /// The domain of a packing: its box with walls on the axes that are not periodic, or open faces there when `walls` is

@@ -80,8 +80,10 @@ struct mass_below {
 inline std::vector<double> radii_by_mass(std::size_t n, std::span<const mass_below> curve) {
   const auto point = [](std::size_t k) { return "grading curve, point " + std::to_string(k + 1); };
   if (curve.size() < 2 || curve.front().fraction != 0.0 || curve.back().fraction != 1.0) {
-    throw parameter_error("grading curve", curve.empty() ? "no points" : "mass fractions from " +
-                              std::to_string(curve.front().fraction) + " to " + std::to_string(curve.back().fraction),
+    throw parameter_error("grading curve",
+                          curve.empty() ? "no points"
+                                        : "mass fractions from " + std::to_string(curve.front().fraction) + " to " +
+                                              std::to_string(curve.back().fraction),
                           "at least two points, from fraction 0 to fraction 1");
   }
   std::vector<double> number(curve.size(), 0.0);  // cumulative, of grains, up to a factor
@@ -94,8 +96,9 @@ inline std::vector<double> radii_by_mass(std::size_t n, std::span<const mass_bel
     const double d1 = curve[k].diameter;
     const double mass = curve[k].fraction - curve[k - 1].fraction;
     if (!(d1 >= d0) || !(mass >= 0)) {
-      throw parameter_error(point(k), "diameter " + std::to_string(d1) + ", fraction " +
-                            std::to_string(curve[k].fraction), "values that do not fall");
+      throw parameter_error(point(k),
+                            "diameter " + std::to_string(d1) + ", fraction " + std::to_string(curve[k].fraction),
+                            "values that do not fall");
     }
     // ∫ mass/(d1 - d0) d⁻³ dd = mass (d0 + d1) / (2 d0² d1²), which is also right for a step.
     const double r = curve[0].diameter;

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 /// \file
@@ -65,8 +66,8 @@ class coincidence_search {
         continue;
       }
       seen[count++] = k;
-      for (auto at = std::lower_bound(cells_.begin(), cells_.end(), entry{k, 0});
-           at != cells_.end() && at->cell == k; ++at) {
+      for (auto at = std::lower_bound(cells_.begin(), cells_.end(), entry{k, 0}); at != cells_.end() && at->cell == k;
+           ++at) {
         if (at->grain != i && close(i, at->grain)) {
           f(at->grain);
         }
@@ -116,7 +117,9 @@ class coincidence_search {
 /// centres equal modulo the box to within `tolerance` times the smallest radius. Two grains given at one place, with no
 /// period between them, stay: that is a mistake of the input, which check() reports. The order of the grains is kept.
 /// \par Units  [m]
-/// \throw packing_error  a periodic axis without a box
+/// \par Accuracy  a grain n box lengths away loses the digits of n
+/// 	hrow packing_error  a periodic axis without a box; a grain more than a million box lengths away, whose place is
+///                       no longer known
 inline wrap_report wrap(packing& p, double tolerance = 1e-9) {
   wrap_report report;
   const auto d = domain_of(p);
@@ -124,8 +127,16 @@ inline wrap_report wrap(packing& p, double tolerance = 1e-9) {
     return report;
   }
   double smallest = p.grains.front().radius;
-  for (const auto& g : p.grains) {
-    smallest = std::min(smallest, g.radius);
+  for (std::size_t i = 0; i < p.grains.size(); ++i) {
+    smallest = std::min(smallest, p.grains[i].radius);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double x = p.grains[i].centre[axis];
+      if (d.is_periodic(axis) && !(std::abs(x - d.bounds.lo[axis]) <= 1e6 * d.bounds.size()[axis])) {
+        throw packing_error("grain " + std::to_string(i),
+                            std::string("centre ") + "xyz"[axis] + " = " + std::to_string(x),
+                            "a place within a million box lengths of the box");
+      }
+    }
   }
   const double reach = tolerance * smallest;
   const auto given = p.grains;

@@ -131,12 +131,17 @@ TEST_CASE("a truncated binary file is named with the byte") {
   says(refusal(grain, "p.xyzd", {}, "N: 2\nDimensions: 1 1 1\n"), {"1 grains", "2", "nfo"});
   says(refusal(grain, "p.xyzd", {}, "Dimensions: 1 0 1\n"), {"nfo:1", "along y"});
   says(refusal(std::string(32, '\0'), "p.xyzd"), {"byte 0", "radius"});
-  says(refusal(grain + std::string(24, '\0') + std::string(8, '\x7f') + std::string(32, '\xff'), "p.xyzd"), {"byte 64"});
+  says(refusal(grain + std::string(24, '\0') + std::string(8, '\x7f') + std::string(32, '\xff'), "p.xyzd"),
+       {"byte 64"});
 }
 
 TEST_CASE("a NUL byte, another encoding and a lone carriage return are not numbers") {
   says(refusal(std::string_view("0 0 0 1\n0 0 1\0 1\n", 17)), {"p.txt:2", "\\x00"});
-  says(refusal(std::string_view("\xff\xfe" "0\0 \0" "0\0", 8)), {"p.txt:1"});
+  says(refusal(std::string_view("\xff\xfe"
+                                "0\0 \0"
+                                "0\0",
+                                8)),
+       {"p.txt:1"});
   says(refusal("0 0 0 1\r1 0 0 1\r"), {"p.txt:1"});
 }
 
@@ -156,11 +161,13 @@ TEST_CASE("a line of 100 MB is refused without being held in memory") {
 }
 
 TEST_CASE("options outside their domain are refused by name") {
-  for (const double bad : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-    CHECK(contains(message_of<parameter_error>([&] { return read_packing_from_memory("0 0 0 1", "p", {.scale = bad}); }),
-                   "scale"));
-    CHECK(contains(
-        message_of<parameter_error>([&] { return read_packing_from_memory("0 0 0", "p", {.radius = bad}); }), "radius"));
+  for (const double bad :
+       {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    CHECK(
+        contains(message_of<parameter_error>([&] { return read_packing_from_memory("0 0 0 1", "p", {.scale = bad}); }),
+                 "scale"));
+    CHECK(contains(message_of<parameter_error>([&] { return read_packing_from_memory("0 0 0", "p", {.radius = bad}); }),
+                   "radius"));
   }
   CHECK_FALSE(message_of<parameter_error>([] { return io::column(-1); }).empty());
 }

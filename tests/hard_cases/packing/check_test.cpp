@@ -22,7 +22,10 @@ constexpr double inf = std::numeric_limits<double>::infinity();
 packing sound() {
   packing p;
   p.bounds = box{{0, 0, 0}, {1, 1, 1}};
-  p.grains = {{{0.2, 0.2, 0.2}, 0.1}, {{0.8, 0.2, 0.2}, 0.1}, {{0.2, 0.8, 0.2}, 0.1}, {{0.2, 0.2, 0.8}, 0.1},
+  p.grains = {{{0.2, 0.2, 0.2}, 0.1},
+              {{0.8, 0.2, 0.2}, 0.1},
+              {{0.2, 0.8, 0.2}, 0.1},
+              {{0.2, 0.2, 0.8}, 0.1},
               {{0.7, 0.7, 0.7}, 0.2}};
   return p;
 }
@@ -159,7 +162,8 @@ TEST_CASE("generators refuse what they cannot do, and say what is possible") {
   says(message_of<packing_error>([&] { return random_packing(radii, {.solid_fraction = 0.75}); }),
        {"0.75", "an overlap of", "a lower solid fraction"});
   CHECK_FALSE(message_of<parameter_error>([&] { return random_packing(radii, {.solid_fraction = 0.0}); }).empty());
-  CHECK_FALSE(message_of<parameter_error>([&] { return random_packing(radii, {.solid_fraction = not_a_number}); }).empty());
+  CHECK_FALSE(
+      message_of<parameter_error>([&] { return random_packing(radii, {.solid_fraction = not_a_number}); }).empty());
   CHECK_FALSE(message_of<parameter_error>([&] { return random_packing({}, {.solid_fraction = 0.5}); }).empty());
   says(message_of<parameter_error>([&] {
          return random_packing(radii, {.solid_fraction = 0.5, .aspect = {1.0, 1.0, 0.01}});
@@ -174,8 +178,7 @@ TEST_CASE("generators refuse what they cannot do, and say what is possible") {
   CHECK_FALSE(message_of<parameter_error>([&] { return radii_by_mass(5, open); }).empty());
   says(message_of<packing_error>([] { return tile(sound(), {2, 1, 1}); }), {"box along x", "periodic"});
   CHECK_FALSE(message_of<parameter_error>([] { return tile(sound(), {1, 0, 1}); }).empty());
-  CHECK_FALSE(
-      message_of<parameter_error>([] { return lattice(lattice_kind::simple_cubic, {2, 0, 2}, 1.0); }).empty());
+  CHECK_FALSE(message_of<parameter_error>([] { return lattice(lattice_kind::simple_cubic, {2, 0, 2}, 1.0); }).empty());
 }
 
 TEST_CASE("a grading curve whose file is wrong is refused with its line") {

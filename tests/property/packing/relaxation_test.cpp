@@ -52,7 +52,8 @@ TEST_CASE("the unit of length changes nothing: radii a power of two larger give 
 }
 
 TEST_CASE("a size ratio above a hundred is packed") {
-  const auto p = random_packing(lognormal_radii(1000, 1.0, 0.8), {.solid_fraction = 0.6, .periodic = {true, true, true}});
+  const auto p =
+      random_packing(lognormal_radii(1000, 1.0, 0.8), {.solid_fraction = 0.6, .periodic = {true, true, true}});
   CHECK(largest_overlap(p).grains <= 0.0);
   const auto r = radii_of(p.grains);
   CHECK(r.largest / r.smallest > 100.0);

@@ -34,7 +34,8 @@ std::string bytes_of(std::initializer_list<double> values) {
 
 TEST_CASE("our text format gives grains, box and nothing else") {
   const auto r = read_packing_from_memory(
-      "# box 0 1 -1 2 0 3.5 ; units m ; columns x y z r ; N 2\n# made by hand\n.5 .25 1e0 1E-1\n+0.5 1 -0 2.5e-1\n", "p.txt");
+      "# box 0 1 -1 2 0 3.5 ; units m ; columns x y z r ; N 2\n# made by hand\n.5 .25 1e0 1E-1\n+0.5 1 -0 2.5e-1\n",
+      "p.txt");
   REQUIRE(r.packing.grains.size() == 2);
   CHECK(r.packing.grains[0] == sphere<double>{{0.5, 0.25, 1.0}, 0.1});
   CHECK(r.packing.grains[1] == sphere<double>{{0.5, 1.0, 0.0}, 0.25});
@@ -50,8 +51,7 @@ TEST_CASE("our text format gives grains, box and nothing else") {
 }
 
 TEST_CASE("the box comment states periodic axes, and grains are wrapped into it") {
-  const auto r =
-      read_packing_from_memory("# box 0 1 0 1 0 1 ; periodic xz\n1.25 .5 -.25 .1\n.5 .5 .5 .1\n", "p.txt");
+  const auto r = read_packing_from_memory("# box 0 1 0 1 0 1 ; periodic xz\n1.25 .5 -.25 .1\n.5 .5 .5 .1\n", "p.txt");
   CHECK(r.packing.periodic == std::array<bool, 3>{true, false, true});
   CHECK(r.packing.grains[0].centre == vec3<double>{0.25, 0.5, 0.75});
   CHECK(r.report.wrapping.wrapped == 1);
@@ -68,8 +68,10 @@ TEST_CASE("a grain listed with its periodic image is read once, and the report n
 
 TEST_CASE("line ends, byte order marks, blank lines and trailing comments do not matter") {
   const auto plain = read_packing_from_memory("0 0 0 1\n2 0 0 1\n", "p.txt").packing;
-  for (const char* text : {"0 0 0 1\r\n2 0 0 1\r\n", "\xef\xbb\xbf" "0 0 0 1\n2 0 0 1", "\n0 0 0 1\n\n \t\n2 0 0 1\n\n",
-                           "\t0 0\t0  1  \n2 0 0 1 # the last\n"}) {
+  for (const char* text : {"0 0 0 1\r\n2 0 0 1\r\n",
+                           "\xef\xbb\xbf"
+                           "0 0 0 1\n2 0 0 1",
+                           "\n0 0 0 1\n\n \t\n2 0 0 1\n\n", "\t0 0\t0  1  \n2 0 0 1 # the last\n"}) {
     CHECK(read_packing_from_memory(text, "p.txt").packing.grains == plain.grains);
   }
 }
@@ -87,9 +89,9 @@ TEST_CASE("numbers are read alike in a locale with a decimal comma") {
 }
 
 TEST_CASE("CSV columns are found by their names, in any order and case") {
-  for (const char* text : {"id,Radius,Z,Y,X\n7,0.5,3,2,1\n", "id;radius;z;y;x\n7;0.5;3;2;1\n",
-                           "id\tr\tz\ty\tx\n7\t.5\t3\t2\t1\n", "\"id\",\"D\",\"Points:2\",\"Points:1\",\"Points:0\"\n7,1,3,2,1\n",
-                           "# id, rad, z, y, x\n7, 0.5, 3, 2, 1\n"}) {
+  for (const char* text :
+       {"id,Radius,Z,Y,X\n7,0.5,3,2,1\n", "id;radius;z;y;x\n7;0.5;3;2;1\n", "id\tr\tz\ty\tx\n7\t.5\t3\t2\t1\n",
+        "\"id\",\"D\",\"Points:2\",\"Points:1\",\"Points:0\"\n7,1,3,2,1\n", "# id, rad, z, y, x\n7, 0.5, 3, 2, 1\n"}) {
     const auto r = read_packing_from_memory(text, "p.csv");
     CHECK(r.packing.grains == std::vector<sphere<double>>{{{1, 2, 3}, 0.5}});
     CHECK(r.report.format == packing_format::csv);
@@ -108,8 +110,8 @@ TEST_CASE("a column map chooses columns by name or position, radius or diameter"
 }
 
 TEST_CASE("scale turns the file's unit into metres, box and radius included") {
-  const auto r = read_packing_from_memory("# box 0 2 0 2 0 2\n1 1 1 0.5\n", "p.txt",
-                                          {.scale = 1e-3, .radius_factor = 2.0});
+  const auto r =
+      read_packing_from_memory("# box 0 2 0 2 0 2\n1 1 1 0.5\n", "p.txt", {.scale = 1e-3, .radius_factor = 2.0});
   CHECK(r.packing.grains[0] == sphere<double>{{1e-3, 1e-3, 1e-3}, 1e-3});
   CHECK(r.packing.bounds->hi == vec3<double>{2e-3, 2e-3, 2e-3});
 }
@@ -135,7 +137,8 @@ TEST_CASE("Yade's text export names its columns in its first line") {
 
 namespace {
 constexpr const char* two_steps =
-    "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp ff pp\n0 1\n0 2\n0 3\nITEM: ATOMS id x y z radius\n"
+    "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp ff pp\n0 1\n0 2\n0 3\nITEM: ATOMS id x y z "
+    "radius\n"
     "1 .5 .5 .5 .1\n"
     "ITEM: TIMESTEP\n100\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS pp ff pp\n0 1\n0 2\n0 4\n"
     "ITEM: ATOMS radius z y x id \n.2 .5 .25 1.75 2\n.1 1 1 .5 1\n";
@@ -156,8 +159,9 @@ TEST_CASE("a dump gives its last time step, or the one asked for") {
 }
 
 TEST_CASE("a dump's scaled coordinates are taken back to the box, unwrapped ones are wrapped") {
-  const std::string head = "ITEM: UNITS\nsi\nITEM: TIMESTEP\n5\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n"
-                           "1 3\n0 2\n0 2\nITEM: ATOMS id ";
+  const std::string head =
+      "ITEM: UNITS\nsi\nITEM: TIMESTEP\n5\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n"
+      "1 3\n0 2\n0 2\nITEM: ATOMS id ";
   CHECK(read_packing_from_memory(head + "xs ys zs diameter\n1 .25 .5 .5 1\n", "d").packing.grains[0] ==
         sphere<double>{{1.5, 1, 1}, 0.5});
   CHECK(read_packing_from_memory(head + "xu yu zu radius\n1 5.5 1 1 .5\n", "d").packing.grains[0] ==
@@ -233,8 +237,8 @@ TEST_CASE("boxes and sizes of the shared data are those of its description") {
   CHECK(d.packing.bounds->hi == vec3<double>{0.55, 0.55, 4});
   CHECK(d.report.time_step == "50000000");
   CHECK(d.packing.grains[0].radius == 0.002);
-  const auto e = read_packing(
-      *equal, {.bounds = box{{0, 0, 0}, {1, 1, 1}}, .periodic = std::array<bool, 3>{true, true, true}});
+  const auto e =
+      read_packing(*equal, {.bounds = box{{0, 0, 0}, {1, 1, 1}}, .periodic = std::array<bool, 3>{true, true, true}});
   CHECK(e.packing.grains[0].radius == doctest::Approx(0.5 * 0.2049298395197904).epsilon(1e-15));
 }
 

@@ -3,6 +3,8 @@
 #include "tetrapore/io/read_sizes.hpp"
 #include "tetrapore/packing.hpp"
 
+#include "support/errors.hpp"
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -16,7 +18,7 @@ using namespace tetrapore;
 namespace {
 constexpr std::array<bool, 3> all_axes{true, true, true};
 const std::filesystem::path shipped_data = std::filesystem::path(TETRAPORE_TEST_DATA) / "../examples/data";
-}
+}  // namespace
 
 TEST_CASE("the random sequence is xoshiro256** seeded by splitmix64") {
   // The first numbers of the published algorithms for seed 0: splitmix64 gives e220a8397b1dcdaf … as the state.
@@ -34,10 +36,10 @@ TEST_CASE("lattices have the known solid fraction, contacts and gaps") {
     double contacts;
   };
   const double close = pi<double> / std::sqrt(18.0);
-  for (const auto& k : {known{lattice_kind::simple_cubic, 1, pi<double> / 6.0, 6},
-                        known{lattice_kind::body_centred, 2, pi<double> * std::sqrt(3.0) / 8.0, 8},
-                        known{lattice_kind::face_centred, 4, close, 12},
-                        known{lattice_kind::hexagonal_close, 4, close, 12}}) {
+  for (const auto& k :
+       {known{lattice_kind::simple_cubic, 1, pi<double> / 6.0, 6},
+        known{lattice_kind::body_centred, 2, pi<double> * std::sqrt(3.0) / 8.0, 8},
+        known{lattice_kind::face_centred, 4, close, 12}, known{lattice_kind::hexagonal_close, 4, close, 12}}) {
     CAPTURE(static_cast<int>(k.kind));
     const auto p = lattice(k.kind, {3, 4, 5}, 0.7, all_axes);
     CHECK(p.grains.size() == 60 * k.per_cell);
@@ -211,7 +213,8 @@ TEST_CASE("the packing that ships holds 10,000 beads of the grading curve, apart
 }
 
 TEST_CASE("tiling repeats a periodic packing, in its larger box") {
-  const auto p = random_packing(uniform_radii(100, 1.0, 0.3), {.solid_fraction = 0.55, .periodic = {true, false, true}});
+  const auto p =
+      random_packing(uniform_radii(100, 1.0, 0.3), {.solid_fraction = 0.55, .periodic = {true, false, true}});
   const auto t = tile(p, {3, 1, 2});
   CHECK(t.grains.size() == 600);
   CHECK(t.periodic == p.periodic);
@@ -227,14 +230,25 @@ TEST_CASE("wrapping keeps grains inside, keeps their order, and removes images o
   packing p;
   p.bounds = box{{0, 0, 0}, {1, 2, 3}};
   p.periodic = {true, true, false};
-  p.grains = {{{0.5, 0.5, 0.5}, 0.1}, {{1.5, 2.5, 0.5}, 0.1},   // an image of the first
-              {{-0.25, 0.5, 4.0}, 0.1},                         // outside along z, where nothing repeats
-              {{0.5, 0.5, 0.5}, 0.1},                           // the first again, at its place: not an image
-              {{0.5, 4.5, 0.5}, 0.2},                           // an image of the first but for its radius
-              {{1.0, 2.0, 1.0}, 0.1}, {{0.0, 0.0, 1.0}, 0.1}};  // the upper corner is the lower one
+  p.grains = {{{0.5, 0.5, 0.5}, 0.1},   {{1.5, 2.5, 0.5}, 0.1},   // an image of the first
+              {{-0.25, 0.5, 4.0}, 0.1},                           // outside along z, where nothing repeats
+              {{0.5, 0.5, 0.5}, 0.1},                             // the first again, at its place: not an image
+              {{0.5, 4.5, 0.5}, 0.2},                             // an image of the first but for its radius
+              {{1.0, 2.0, 1.0}, 0.1},   {{0.0, 0.0, 1.0}, 0.1}};  // the upper corner is the lower one
   const auto report = wrap(p);
   CHECK(report.wrapped == 4);
   CHECK(report.duplicates == std::vector<std::size_t>{1, 6});
   CHECK(p.grains.size() == 5);
   CHECK(p.grains[1].centre == vec3<double>{0.75, 0.5, 4.0});
+}
+
+TEST_CASE("a grain a million box lengths away has lost its place, and is refused") {
+  packing p;
+  p.bounds = box{{0, 0, 0}, {1, 1, 1}};
+  p.periodic = {true, false, false};
+  p.grains = {{{0.5, 0.5, 0.5}, 0.1}, {{2e6, 0.5, 0.5}, 0.1}};
+  CHECK(contains(message_of<packing_error>([&] { return wrap(p); }), "grain 1: found centre x = 2000000"));
+  CHECK(contains(message_of<packing_error>([&] { return largest_overlap(p); }), "wrap the packing first"));
+  p.periodic = {};
+  CHECK(wrap(p).wrapped == 0);
 }
