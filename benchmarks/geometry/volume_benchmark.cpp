@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Geometry of a pore, one row per kernel: time per call; `error`, the worst difference from the same formula in long
-// double, in units of the natural scale of each row (cell size cubed, length, steradian); `failed`, the answers that were
-// refused. The inputs are distinct, in random order and larger than the L2 cache.
+// double, in units of the natural scale of each row (cell size cubed, length, steradian); `failed`, the answers that
+// were refused. The inputs are distinct, in random order and larger than the L2 cache.
 
 #include "tetrapore/geometry.hpp"
 #include "tetrapore/simplex.hpp"
@@ -43,8 +43,8 @@ pore_body<long double> widen(const pore_body<double>& b) {
   return wide;
 }
 
-// Four grains of radii 0.5 to 1 with gaps up to a fifth of their distance, anywhere in a box of side 100. A flatness above
-// 0 squeezes the fourth towards the plane of the others, until grains overlap and reach through.
+// Four grains of radii 0.5 to 1 with gaps up to a fifth of their distance, anywhere in a box of side 100. A flatness
+// above 0 squeezes the fourth towards the plane of the others, until grains overlap and reach through.
 std::vector<input> pores(double flatness) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);

@@ -138,10 +138,10 @@ template <real T>
     return whole_cone() - turn_sense * ((r - h) * (r - h) * (r + r + h) * T(pi<T>) / T(3));
   }
 
-  // Each edge closes a triangle with the foot. On the part of its line inside the disc the triangle carries a pyramid; on
-  // the parts outside a cone r³/3 (h/r Δφ - Δψ) and a pyramid h a²/6 Δφ, with φ the angle at the foot and
-  // tan ψ = h s / (d R), s along the line and R the distance from the centre. For a distant plane the difference is taken
-  // analytically instead: the whole solid angle of the triangle, less its share of the cap.
+  // Each edge closes a triangle with the foot. On the part of its line inside the disc the triangle carries a
+  // pyramid; on the parts outside a cone r³/3 (h/r Δφ - Δψ) and a pyramid h a²/6 Δφ, with φ the angle at the foot and
+  // tan ψ = h s / (d R), s along the line and R the distance from the centre. For a distant plane the difference is
+  // taken analytically instead: the whole solid angle of the triangle, less its share of the cap.
   const T per_angle = distant ? -(r - h) * (r - h) * (r + r + h) / T(6) : h * (T(3) * r * r - h2) / T(6);
   T volume(0);
   for (std::size_t k = 0; k < count; ++k) {
@@ -180,8 +180,8 @@ template <real T>
 /// Volume of the part of a ball inside a polyhedron, in closed form: the sum over the faces of signed cones from the
 /// centre of the ball.
 /// \par Units  [m] -> [m³]
-/// \par Domain  any position of the centre: inside, outside, on a face, an edge or a vertex; any convex polyhedron, flat
-/// ones included; an inverted one has negative volumes
+/// \par Domain  any position of the centre: inside, outside, on a face, an edge or a vertex; any convex polyhedron,
+/// flat ones included; an inverted one has negative volumes
 /// \par Accuracy  1e-14 of (r + L)² L, with r the radius and L the size of the polyhedron (measured: 2e-16 at r = L,
 /// 8e-15 of r² L at r from L to 1000 L)
 /// \par Source  divergence theorem; the arc integral is asin(h sin φ / sqrt(h² + d²)), written as an atan2

@@ -62,8 +62,8 @@ struct plane_polygon {
   }
 };
 
-/// Area of the part of a disc inside a convex polygon, in closed form: each edge closes a triangle with the centre, which
-/// counts whole where its edge is inside the circle and as a sector where it is outside.
+/// Area of the part of a disc inside a convex polygon, in closed form: each edge closes a triangle with the centre,
+/// which counts whole where its edge is inside the circle and as a sector where it is outside.
 /// \par Units  [m] -> [m²]
 /// \par Accuracy  a few epsilon of r²
 template <real T>

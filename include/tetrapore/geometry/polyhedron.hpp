@@ -16,8 +16,8 @@ namespace tetrapore::inline TETRAPORE_ABI {
 
 namespace detail {
 
-/// Storage for up to N values of a trivially copyable type, not initialised: a polyhedron is made and dropped often, and
-/// mostly empty.
+/// Storage for up to N values of a trivially copyable type, not initialised: a polyhedron is made and dropped often,
+/// and mostly empty.
 template <class T, std::size_t N>
 class workspace {
  public:

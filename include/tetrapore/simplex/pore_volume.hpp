@@ -24,9 +24,10 @@ struct cell_face {
 };
 
 /// The corners and faces of a cell with G grains and 4 - G walls. Corner `grain + G * set` is the centre of a grain
-/// projected on a set of walls (bit w for wall w), in the order of the tables below. The first four faces are the facets
-/// opposite to the vertices, grains first (opposite to the single grain of a cuboid there is none: count 0); then the
-/// faces on the walls. A wall acts as a vertex at infinity, so all four shapes have the orientation of a tetrahedron.
+/// projected on a set of walls (bit w for wall w), in the order of the tables below. The first four faces are the
+/// facets opposite to the vertices, grains first (opposite to the single grain of a cuboid there is none: count 0);
+/// then the faces on the walls. A wall acts as a vertex at infinity, so all four shapes have the orientation of a
+/// tetrahedron.
 template <std::size_t G>
 struct cell_shape;
 
@@ -46,7 +47,12 @@ template <>
 struct cell_shape<2> {
   static constexpr std::size_t corner_count = 8;
   static constexpr std::array<cell_face, 6> faces{
-      {{4, {1, 3, 7, 5}}, {4, {0, 4, 6, 2}}, {4, {0, 1, 5, 4}}, {4, {1, 0, 2, 3}}, {4, {3, 2, 6, 7}}, {4, {4, 5, 7, 6}}}};
+      {{4, {1, 3, 7, 5}},
+       {4, {0, 4, 6, 2}},
+       {4, {0, 1, 5, 4}},
+       {4, {1, 0, 2, 3}},
+       {4, {3, 2, 6, 7}},
+       {4, {4, 5, 7, 6}}}};
 };
 template <>
 struct cell_shape<1> {
@@ -323,10 +329,10 @@ struct lens {
   }
 };
 
-/// Solid volume in a cell. While no three balls meet, the union is the sum of the balls less the sum of their lenses, and
-/// most of these are known without the kernel: a grain that reaches neither its opposite facet nor a wall fills a sector;
-/// the lens of two such grains fills its share of the angle at their edge, as it can leave the cell only through a facet
-/// that one of the two would reach.
+/// Solid volume in a cell. While no three balls meet, the union is the sum of the balls less the sum of their lenses,
+/// and most of these are known without the kernel: a grain that reaches neither its opposite facet nor a wall fills a
+/// sector; the lens of two such grains fills its share of the angle at their edge, as it can leave the cell only
+/// through a facet that one of the two would reach.
 template <real T, std::size_t G>
 [[nodiscard]] outcome<T, geometry_status> solid_volume(const cell_frame<T, G>& cell,
                                                        std::span<const sphere<T>> intruders) noexcept {
@@ -433,8 +439,8 @@ template <real T>
   });
 }
 
-/// Whether grain k reaches through the facet opposite to it, so that the sector form gives this cell too much and the cell
-/// behind too little.
+/// Whether grain k reaches through the facet opposite to it, so that the sector form gives this cell too much and the
+/// cell behind too little.
 template <real T>
 [[nodiscard]] bool pokes(const pore_body<T>& body, std::size_t k) noexcept {
   return detail::in_frame(body, [&](const auto& cell) noexcept { return cell.reaches_facet(k); });
@@ -465,8 +471,9 @@ template <real T>
 /// \param intruders  the other balls that may reach into the cell; balls that do not, and repeated ones, change nothing
 /// \par Units  [m³]
 /// \par Domain  cells of positive or (to rounding) zero volume
-/// \par Accuracy  2e-16 of the cube of the cell's size (measured, 12,000 cells of every shape with up to three intruders
-/// of its size); 1.3e-16 of the volumes involved at radius ratios of a thousand; intruders much larger: as ball_volume
+/// \par Accuracy  2e-16 of the cube of the cell's size (measured, 12,000 cells of every shape with up to three
+/// intruders of its size); 1.3e-16 of the volumes involved at radius ratios of a thousand; intruders much larger: as
+/// ball_volume
 template <real T>
 [[nodiscard]] outcome<T, geometry_status> void_volume(const pore_body<T>& body,
                                                       std::span<const sphere<T>> intruders = {}) noexcept {

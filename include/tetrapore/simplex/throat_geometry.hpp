@@ -55,8 +55,8 @@ template <real T>
 
 }  // namespace detail
 
-/// Area of the facet outside the discs of its grains: the sectors at the corners, without the segments that stick out of
-/// the opposite edge or beyond a wall, and with what discs share counted once.
+/// Area of the facet outside the discs of its grains: the sectors at the corners, without the segments that stick out
+/// of the opposite edge or beyond a wall, and with what discs share counted once.
 /// \par Units  [m²]
 /// \par Domain  any throat; flat ones have no area
 /// \par Accuracy  a few epsilon of the square of the largest radius or edge

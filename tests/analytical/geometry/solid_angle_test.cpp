@@ -38,7 +38,8 @@ TEST_CASE("the solid angles of a tetrahedron at an inner point sum to 4 pi, at a
 }
 
 TEST_CASE("a flat pyramid of height 1e-10 spans 2 pi less 6 sqrt(3) times the height") {
-  // The three sides are arcs of elevation atan(tan h cos phi / cos 60°), so each takes 2 h tan 60° from the half sphere.
+  // The three sides are arcs of elevation atan(tan h cos phi / cos 60°), so each takes 2 h tan 60° from the half
+  // sphere.
   for (const double h : {1e-6, 1e-8, 1e-10, 1e-12}) {
     const double s = std::sqrt(0.75);
     const double omega = solid_angle(vec3<double>{1, 0, h}, vec3<double>{-0.5, s, h}, vec3<double>{-0.5, -s, h});
