@@ -89,10 +89,12 @@ class drainage {
       : net_(&net), rule_(&rule), options_(options), state_(std::move(from)) {
     check_options();
     place_reservoirs();
-    close_paths();
+    link_pores();
     if constexpr (Rule::depends_on_state) {
       key_.assign(net.throat_count(), no_key);
       reason_.assign(net.throat_count(), entry_status::ok);
+    } else {
+      best_.assign(net.pore_count(), infinity<double>);
     }
     feed_inlet();
     if (options_.trap != trapping::none) {
@@ -264,14 +266,14 @@ class drainage {
     }
   }
 
-  void close_paths() {
+  void link_pores() {
+    links_ = pore_links(*net_);
     if (options_.liquid_passes_closed_throats) {
       return;
     }
-    paths_ = liquid_paths(net_->throat_count());
     for (std::size_t i = 0; i < net_->throat_count(); ++i) {
       if (rule_->threshold(*net_, state_, throat_id(i)).kind() == verdict::absent) {
-        paths_.close(throat_id(i));
+        links_.close(throat_id(i), net_->throat_count());
       }
     }
   }
@@ -295,16 +297,11 @@ class drainage {
   /// throats is connected too.
   template <bool Asking = true>
   void expose(pore_id p) {
-    const network& net = *net_;
     newly_fed_.clear();
     newly_fed_.push_back(p);
     for (std::size_t head = 0; head < newly_fed_.size(); ++head) {
       const pore_id from = newly_fed_[head];
-      for (const throat_id t : net.throats(from)) {
-        if (!t.valid()) {
-          continue;
-        }
-        const pore_id to = net.across(from, t);
+      for (const auto& [to, t] : links_.of(from)) {
         if (!to.valid()) {
           continue;
         }
@@ -313,7 +310,7 @@ class drainage {
             ask(t, to);
           }
         } else if (state_.is_gas(to) && !state_.is_fed(to) &&
-                   rule_->threshold(net, state_, t).kind() != verdict::absent) {
+                   rule_->threshold(*net_, state_, t).kind() != verdict::absent) {
           state_.mark_fed(to);
           newly_fed_.push_back(to);
         }
@@ -331,6 +328,14 @@ class drainage {
       if (std::exchange(key_[t.index()], key) == key) {
         return;
       }
+    }
+    if constexpr (!Rule::depends_on_state) {
+      // Behind a lower threshold that is on the heap already, this one will never be passed.
+      double& best = best_[target.index()];
+      if (!passable || answer.value.lo > best) {
+        return;
+      }
+      best = answer.value.hi < best ? answer.value.hi : best;
     }
     if (passable) {
       any_wide_ = any_wide_ || !answer.value.exact();
@@ -487,10 +492,10 @@ class drainage {
       plan_two_passes();
       return;
     }
-    search_ = live_trapping(*net_);
+    search_ = live_trapping(net_->pore_count());
     search_all_ = mid_level;
     if (!mid_level) {
-      search_.find_initial(*net_, state_, paths_, cut_off_);
+      search_.find_initial(state_, links_, cut_off_);
       trap_found();
     }
   }
@@ -509,9 +514,9 @@ class drainage {
       return;
     }
     if (std::exchange(search_all_, false)) {
-      search_.find_initial(*net_, state_, paths_, cut_off_);
+      search_.find_initial(state_, links_, cut_off_);
     } else {
-      search_.find(*net_, state_, paths_, in_level_, cut_off_);
+      search_.find(state_, links_, in_level_, cut_off_);
     }
     in_level_.clear();
     trap_found();
@@ -550,7 +555,7 @@ class drainage {
       advance_front(taken.target);
     }
     std::vector<std::uint8_t> kept;
-    trap_backwards(*net_, state_, paths_, sequence, group_end, kept, cut_off_);
+    trap_backwards(state_, links_, sequence, group_end, kept, cut_off_);
     for (const pore_id p : sequence) {
       state_.mark_wet(p);
     }
@@ -602,6 +607,7 @@ class drainage {
   detail::front_heap heap_;
   candidate next_;
   bool any_wide_ = false;
+  std::vector<double> best_;          ///< fixed rules: upper end of the lowest threshold that leads into each pore
   std::vector<double> key_;           ///< state-dependent rules: the key that holds for each throat of the front
   std::vector<entry_status> reason_;  ///< and its reason
   std::vector<pore_id> newly_fed_;
@@ -613,7 +619,7 @@ class drainage {
   bool live_ = false;
   bool search_all_ = false;
   bool old_gas_ = false;  ///< there was gas that the inlet did not feed
-  liquid_paths paths_;
+  pore_links links_;
   live_trapping search_;
   cut_off_sets cut_off_;
   std::vector<pore_id> in_level_;

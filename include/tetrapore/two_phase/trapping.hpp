@@ -14,34 +14,47 @@
 
 namespace tetrapore::inline TETRAPORE_ABI {
 
-/// The wet connections of a network: throats that liquid can pass. A bit per closed throat.
-class liquid_paths {
- public:
-  liquid_paths() = default;
-  explicit liquid_paths(std::size_t throats) : closed_(throats, 0) {}
+/// A way out of a pore; `to` is invalid where no pore lies beyond.
+struct pore_link {
+  pore_id to;
+  throat_id throat;
+};
 
-  void close(throat_id t) noexcept {
-    closed_[t.index()] = 1;
-    any_ = true;
+/// The four ways out of every pore, side by side in memory, and which of them liquid can pass.
+class pore_links {
+ public:
+  pore_links() = default;
+  explicit pore_links(const network& net) : links_(net.pore_count()) {
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      const pore_id p(i);
+      for (std::size_t k = 0; k < 4; ++k) {
+        const throat_id t = net.throats(p)[k];
+        links_[i][k] = {t.valid() ? net.across(p, t) : pore_id{}, t};
+      }
+    }
   }
-  [[nodiscard]] bool closed(throat_id t) const noexcept { return any_ && closed_[t.index()] != 0; }
+
+  /// Liquid no longer passes throat t.
+  void close(throat_id t, std::size_t throat_count) {
+    closed_.resize(throat_count, 0);
+    closed_[t.index()] = 1;
+  }
+
+  [[nodiscard]] const std::array<pore_link, 4>& of(pore_id p) const noexcept { return links_[p.index()]; }
 
   /// Calls f(neighbour) for the pores that liquid of pore p can reach through one throat.
   template <class F>
-  void around(const network& net, pore_id p, F&& f) const {
-    for (const throat_id t : net.throats(p)) {
-      if (t.valid() && !closed(t)) {
-        const pore_id q = net.across(p, t);
-        if (q.valid()) {
-          f(q);
-        }
+  void around(pore_id p, F&& f) const {
+    for (const pore_link& l : of(p)) {
+      if (l.to.valid() && (closed_.empty() || closed_[l.throat.index()] == 0)) {
+        f(l.to);
       }
     }
   }
 
  private:
-  std::vector<std::uint8_t> closed_;
-  bool any_ = false;
+  std::vector<std::array<pore_link, 4>> links_;
+  std::vector<std::uint8_t> closed_;  ///< empty: none
 };
 
 /// Sets of pores cut off together, one after another in one array, each with the time at which it was cut off.
@@ -89,13 +102,13 @@ class cut_off_sets {
 class live_trapping {
  public:
   live_trapping() = default;
-  explicit live_trapping(const network& net) : owner_(net.pore_count(), 0) {}
+  explicit live_trapping(std::size_t pores) : owner_(pores, 0) {}
 
   /// Everything wet that never had a way to the outlet. Appends sets of time 0.
-  void find_initial(const network& net, const two_phase_state& state, const liquid_paths& paths, cut_off_sets& out) {
+  void find_initial(const two_phase_state& state, const pore_links& links, cut_off_sets& out) {
     begin(1);
     std::vector<std::uint32_t>& queue = groups_[0].queue;
-    for (std::size_t i = 0; i < net.pore_count(); ++i) {
+    for (std::size_t i = 0; i < state.pore_count(); ++i) {
       if (state.is_outlet(pore_id(i))) {
         queue.push_back(static_cast<std::uint32_t>(i));
         owner_[i] = stamp_;
@@ -103,7 +116,7 @@ class live_trapping {
     }
     const auto flood = [&](std::size_t head) {
       for (; head < queue.size(); ++head) {
-        paths.around(net, pore_id(queue[head]), [&](pore_id q) {
+        links.around(pore_id(queue[head]), [&](pore_id q) {
           if (owner_[q.index()] != stamp_ && state.is_wet(q) && !state.is_trapped(q)) {
             owner_[q.index()] = stamp_;
             queue.push_back(q.value);
@@ -112,7 +125,7 @@ class live_trapping {
       }
     };
     flood(0);
-    for (std::size_t i = 0; i < net.pore_count(); ++i) {
+    for (std::size_t i = 0; i < state.pore_count(); ++i) {
       if (owner_[i] != stamp_ && state.is_drainable(pore_id(i))) {
         const std::size_t from = queue.size();
         owner_[i] = stamp_;
@@ -126,12 +139,11 @@ class live_trapping {
 
   /// The sets cut off by `invaded`, which just became gas, given that every other wet pore that is not trapped had a way
   /// to the outlet before. Appends sets of time 0.
-  void find(const network& net, const two_phase_state& state, const liquid_paths& paths,
-            std::span<const pore_id> invaded, cut_off_sets& out) {
+  void find(const two_phase_state& state, const pore_links& links, std::span<const pore_id> invaded, cut_off_sets& out) {
     seeds_.clear();
     bool at_outlet = false;
     for (const pore_id p : invaded) {
-      paths.around(net, p, [&](pore_id q) {
+      links.around(p, [&](pore_id q) {
         at_outlet = at_outlet || state.is_outlet(q);
         if (state.is_drainable(q)) {
           seeds_.push_back(q.value);
@@ -165,7 +177,7 @@ class live_trapping {
           collect(g, out);
           continue;
         }
-        advance(net, state, paths, g);
+        advance(state, links, g);
         const std::uint32_t now = find_root(g);
         safe = safe || groups_[now].safe;
         if (now == g && !groups_[g].safe) {
@@ -214,9 +226,9 @@ class live_trapping {
   }
 
   /// One pore of group g looks around.
-  void advance(const network& net, const two_phase_state& state, const liquid_paths& paths, std::uint32_t g) {
+  void advance(const two_phase_state& state, const pore_links& links, std::uint32_t g) {
     const pore_id p(groups_[g].queue[groups_[g].head++]);
-    paths.around(net, p, [&](pore_id q) {
+    links.around(p, [&](pore_id q) {
       if (state.is_outlet(q)) {
         groups_[find_root(g)].safe = true;
       } else if (state.is_drainable(q)) {
@@ -274,10 +286,10 @@ class live_trapping {
 /// \param group_end for each group, the index after its last event
 /// \param kept      one flag per event: false where the pore had been trapped before
 /// \param out       the sets cut off, with time = number of the group after which (0: from the start), in order
-inline void trap_backwards(const network& net, const two_phase_state& state, const liquid_paths& paths,
+inline void trap_backwards(const two_phase_state& state, const pore_links& links,
                            std::span<const pore_id> sequence, std::span<const std::uint32_t> group_end,
                            std::vector<std::uint8_t>& kept, cut_off_sets& out) {
-  const std::size_t n = net.pore_count();
+  const std::size_t n = state.pore_count();
   const std::size_t outlet = n;
   disjoint_sets sets(n + 1);
   std::vector<std::uint8_t> wet(n, 0);
@@ -285,7 +297,7 @@ inline void trap_backwards(const network& net, const two_phase_state& state, con
   std::iota(ring.begin(), ring.end(), 0U);
 
   const auto add = [&](pore_id p) {
-    paths.around(net, p, [&](pore_id q) {
+    links.around(p, [&](pore_id q) {
       if (wet[q.index()] != 0 && !sets.same(p.index(), q.index())) {
         sets.unite(p.index(), q.index());
       }
@@ -340,7 +352,7 @@ inline void trap_backwards(const network& net, const two_phase_state& state, con
     ++now;
     const std::size_t outlet_root = sets.find(outlet);
     for (const pore_id p : group) {
-      paths.around(net, p, [&](pore_id q) {
+      links.around(p, [&](pore_id q) {
         if (wet[q.index()] != 0) {
           const std::size_t root = sets.find(q.index());
           if (root != outlet_root && round[root] != now) {
