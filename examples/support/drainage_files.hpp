@@ -60,8 +60,8 @@ inline void write_events(const std::filesystem::path& path, const history& h) {
 }
 
 inline void write_sizes(const std::filesystem::path& path, const tp::network& net, const sizes& s) {
-  tp::io::csv_writer table(path, {"kind", "id", "inscribed_radius [m]", "void_volume [m3]", "area [m2]", "coordination",
-                                  "entry_pressure [Pa]", "status"});
+  tp::io::csv_writer table(path, {"kind", "id", "inscribed_radius [m]", "void_volume [m3]", "fluid_area [m2]",
+                                  "coordination", "entry_pressure [Pa]", "status"});
   for (std::size_t p = 0; p < net.pore_count(); ++p) {
     table.row("pore", p, s.pore_radius[p], net.void_volume(tp::pore_id(p)), "", s.coordination[p], "", "");
   }

@@ -9,6 +9,7 @@
 #include "tetrapore/network/gather.hpp"
 #include "tetrapore/network/solid.hpp"
 #include "tetrapore/packing/statistics.hpp"
+#include "tetrapore/simplex/throat_geometry.hpp"
 #include "tetrapore/tessellation/tessellation.hpp"
 #include "tetrapore/two_phase/drainage.hpp"
 #include "tetrapore/two_phase/facet_rule.hpp"
@@ -73,7 +74,7 @@ struct sizes {
   std::vector<double> entry_pressure;          ///< [Pa] of the facet alone; infinity: closed; NaN: refused, boundary
   std::vector<tp::entry_status> entry_status;  ///< of the law itself, before --gap-limited
   std::vector<double> throat_radius;           ///< [m] inscribed circle; 0: covered; NaN: there is none
-  std::vector<double> throat_area;             ///< [m²] of the whole facet
+  std::vector<double> throat_area;             ///< [m²] of the fluid in the facet
   std::vector<double> pore_radius;             ///< [m] inscribed sphere; 0: covered; NaN: there is none
   std::vector<std::int32_t> coordination;      ///< throats of a pore that lead to another pore and are not closed
 };
@@ -112,7 +113,8 @@ template <class Rule>
     const tp::throat_id t(k);
     const auto ring = tp::opening_at(net, t);
     s.throat_radius.push_back(inscribed_radius(ring));
-    s.throat_area.push_back(norm(tp::throat_at(net, t).area_vector));
+    const auto area = tp::fluid_area(tp::throat_at(net, t));
+    s.throat_area.push_back(area.ok() ? area.value : nan);
     if (net.is_boundary(t)) {
       continue;
     }

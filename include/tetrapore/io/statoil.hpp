@@ -42,7 +42,7 @@ namespace io {
 struct statoil_geometry {
   std::span<const double> pore_radius;    ///< radius of the sphere inscribed in each pore [m]
   std::span<const double> throat_radius;  ///< radius of the circle inscribed in each throat [m]; 0 where it is closed
-  std::span<const double> throat_area;    ///< fluid area of each throat [m²]
+  std::span<const double> throat_area;    ///< fluid area of each throat [m²], see fluid_area(throat)
   face inlet = face::y_max;
   face outlet = face::y_min;
 };

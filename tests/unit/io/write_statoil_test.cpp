@@ -30,7 +30,7 @@ network chain() {
   std::vector<sphere<double>> grains{{{0, 0, 0}, 0.1}, {{0, 1, 0}, 0.1}, {{0, 0, 1}, 0.1},
                                      {{1, 0, 0}, 0.1}, {{1, 1, 0}, 0.1}, {{1, 0, 1}, 0.1}};
   const auto g = [](std::size_t k) { return vertex(grain_id(k)); };
-  network net = network_of({{{0, 0, 0}, {1, 2, 3}}, unbounded().faces}, grains,
+  network net = network_of({{{-0.5, 0, 0}, {1, 2, 3}}, unbounded().faces}, grains,
                            {{g(0), g(1), g(2), g(3)}, {g(1), g(2), g(3), g(4)}, {g(2), g(3), g(4), g(5)}});
   tetrapore::detail::name_boundaries(net);
   return net;
@@ -60,7 +60,7 @@ TEST_CASE("the four files hold the pores between the reservoirs and the links to
 
   const auto node1 = rows_of(folder / "chain_node1.dat");
   REQUIRE(node1.size() == 2);
-  CHECK(node1[0] == std::vector<double>{1, 1, 2, 3});  // one pore; the box along x, y, z
+  CHECK(node1[0] == std::vector<double>{1, 1.5, 2, 3});  // one pore; the box along x, y, z
   // the mean of grains 1 to 4, seen from the inlet x_max; links to the outlet (0) and the inlet (-1)
   CHECK(node1[1] == std::vector<double>{1, 0.5, 0.5, 0.25, 2, 0, -1, 1, 1, 1, 2});
   const double shape = 0.125 * 0.125 / (4 * 0.0625);
@@ -108,7 +108,7 @@ TEST_CASE("closed throats and the pores behind them are counted and left out") {
   CHECK(report.closed_throats == 2);
   CHECK(report.isolated_pores == 1);
   CHECK(report.pores == 0);
-  CHECK(rows_of(folder / "chain_node1.dat") == std::vector<std::vector<double>>{{0, 1, 2, 3}});
+  CHECK(rows_of(folder / "chain_node1.dat") == std::vector<std::vector<double>>{{0, 1.5, 2, 3}});
 }
 
 TEST_CASE("a column of another length, a NaN and inlet = outlet are refused and leave no file") {

@@ -104,7 +104,9 @@ TEST_CASE("across a periodic face a pore keeps its shape") {
   const domain region{{{0, 0, 0}, {1, 1, 1}}, {periodic, periodic, open, open, periodic, periodic}};
   std::vector<sphere<double>> grains{
       {{0.9, 0.2, 0.1}, 0.1}, {{0.1, 0.2, 0.1}, 0.1}, {{0.9, 0.4, 0.1}, 0.1}, {{0.9, 0.2, 0.8}, 0.1}};
-  network_arrays a = connect(region, grains, {c});
+  cell elsewhere = c;  // the same grains, another image of grain 3
+  elsewhere.images[3] = {0, 0, 1};
+  network_arrays a = connect(region, grains, {c, elsewhere});
   const network net{std::move(a)};
   io::write_pores(folder / "pores.vtu", net, {});
   const vtk_file file(folder / "pores.vtu");
@@ -112,7 +114,9 @@ TEST_CASE("across a periodic face a pore keeps its shape") {
   CHECK(corners[1].x == 1.1);
   CHECK(corners[3].z == doctest::Approx(-0.2).epsilon(1e-15));
   CHECK(std::abs(volume(tetra, corners)) == doctest::Approx(0.2 * 0.2 * 0.3 / 6).epsilon(1e-14));
-  CHECK(file.points() == 6);  // four grains in the box and two images
+  CHECK(file.corners(1)[1] == corners[1]);
+  CHECK(file.corners(1)[3].z == doctest::Approx(1.8).epsilon(1e-15));
+  CHECK(file.points() == 7);  // four grains in the box and three images
 }
 
 TEST_CASE("throats are polygons with the area and direction of the throat") {
