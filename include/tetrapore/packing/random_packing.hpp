@@ -255,10 +255,10 @@ inline std::vector<vec3<double>> random_points(std::size_t n, const box& b, rand
 
 /// A dense random packing of grains with the given radii, in a box whose volume follows from the solid fraction; its
 /// lower corner is the origin. Random points become soft spheres of the final size, slightly inflated, which relax
-/// until no two overlap by more than half of the inflation. The radii are placed at random, and keep their values exactly.
+/// until no two overlap by more than half of the inflation. The radii are placed at random, and keep their values.
 /// \par Units  [m]
-/// \par Domain  solid fractions below jamming: for radii within ±30 %, 0.57 for 1,000 grains between six walls, 0.61 for
-/// 10,000, 0.62 for 40,000 or in a periodic box; more for wide distributions
+/// \par Domain  solid fractions below jamming: for radii within ±30 %, 0.57 for 1,000 grains between six walls, 0.61
+/// for 10,000, 0.62 for 40,000 or in a periodic box; more for wide distributions
 /// \par Accuracy  no overlap; the smallest gap is half of options.gap. The same radii and options give the same
 /// bits, with a compiler that does not fuse multiply and add
 /// \par Source  minimiser: Bitzek, Koskinen, Gähler, Moseler & Gumbsch, Structural relaxation made simple, PRL 97, 2006

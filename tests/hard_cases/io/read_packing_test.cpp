@@ -8,7 +8,10 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <string>
+
+#include <sys/resource.h>
 
 using namespace tetrapore;
 using io::read_options;
@@ -33,6 +36,13 @@ void says(const std::string& message, std::initializer_list<const char*> parts) 
     CAPTURE(part);
     CHECK(contains(message, part));
   }
+}
+
+/// Largest resident memory so far [kB].
+long peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss;
 }
 
 struct scratch_file {
@@ -155,7 +165,9 @@ TEST_CASE("a line of 100 MB is refused without being held in memory") {
       out << block;
     }
   }
+  const long before = peak_memory();
   says(message_of<input_error>([&] { return read_packing(file.path); }), {":2", "65536 bytes"});
+  CHECK(peak_memory() - before < 32 * 1024);
   says(refusal("0 0 0 1\n0 0 0 0.00000000000000001\n", "p", {.longest_line = 20}), {"p:2", "20 bytes"});
   CHECK(refusal("0 0 0 1\n0 0 0 0.00000000001\n", "p", {.longest_line = 20}).empty());
 }

@@ -240,6 +240,8 @@ TEST_CASE("wrapping keeps grains inside, keeps their order, and removes images o
   CHECK(report.duplicates == std::vector<std::size_t>{1, 6});
   CHECK(p.grains.size() == 5);
   CHECK(p.grains[1].centre == vec3<double>{0.75, 0.5, 4.0});
+  p.grains = {{{1.5, 0.5, 0.5}, 0.1}, {{1.5, 0.5, 0.5}, 0.1}};  // one place outside the box, given twice
+  CHECK(wrap(p).duplicates.empty());
 }
 
 TEST_CASE("a grain a million box lengths away has lost its place, and is refused") {
