@@ -64,10 +64,11 @@ std::size_t print(const law_report& r) {
     }
   }
   const double worst = errors.empty() ? 0 : *std::max_element(errors.begin(), errors.end());
-  std::printf("law=%s rows=%zu solved=%zu refused=%zu wrong=%zu max_rel_err=%.3g p99_rel_err=%.3g ns_per_call=%.1f "
-              "stated_accuracy=%.3g",
-              r.law.c_str(), r.rows.size(), solved, r.rows.size() - solved, wrong, worst, percentile_99(errors),
-              r.nanoseconds, r.stated_accuracy);
+  std::printf(
+      "law=%s rows=%zu solved=%zu refused=%zu wrong=%zu max_rel_err=%.3g p99_rel_err=%.3g ns_per_call=%.1f "
+      "stated_accuracy=%.3g",
+      r.law.c_str(), r.rows.size(), solved, r.rows.size() - solved, wrong, worst, percentile_99(errors), r.nanoseconds,
+      r.stated_accuracy);
   if (!slopes.empty()) {
     std::printf(" max_rel_err_derivative=%.3g", *std::max_element(slopes.begin(), slopes.end()));
   }
@@ -124,8 +125,8 @@ std::optional<double> derivative_error(const Law& law, const opening<double>& sh
         (axis == 0 ? s.point.x : axis == 1 ? s.point.y : s.radius) += step;
         return law.entry_pressure(o);
       };
-      const long double h = 1e-6L * static_cast<long double>(law.surface_tension.get()) /
-                            static_cast<long double>(slopes.value.pressure);
+      const long double h =
+          1e-6L * static_cast<long double>(law.surface_tension.get()) / static_cast<long double>(slopes.value.pressure);
       const auto a = at(h);
       const auto b = at(-h);
       const auto a2 = at(2 * h);
@@ -152,8 +153,8 @@ law_report measure_entry(const std::string& name, const std::vector<entry_questi
     row.solved = answer.kind() == verdict::ok || answer.kind() == verdict::absent;
     if (q.in_domain) {
       const bool has_value = q.status == "ok";
-      row.wrong = openings::name_of(answer.reason) != q.status &&
-                  !(has_value && answer.reason == entry_status::dry_corner);
+      row.wrong =
+          openings::name_of(answer.reason) != q.status && !(has_value && answer.reason == entry_status::dry_corner);
       if (has_value && answer.ok()) {
         row.error = std::abs(answer.value / q.curvature - 1);
         row.wrong = row.wrong || !(*row.error <= std::max(q.tolerance, Law::stated_accuracy));
@@ -236,8 +237,7 @@ std::vector<law_report> measure_closed_forms(const csv_table& t) {
     msp.push_back({shape, angle, has_value ? "ok" : "gap_limited", t.number(i, "C_msp"), o.has_value(), near_limit});
     // The column is 2 cos θ / r for polygons, 2 / r for rods.
     const double factor = t.text(i, "shape").rfind("regular", 0) == 0 ? 1.0 : std::cos(angle);
-    inscribed.push_back(
-        {shape, angle, "ok", factor * t.number(i, "C_inscribed_2_over_r"), shape.count == 3, 0.0});
+    inscribed.push_back({shape, angle, "ok", factor * t.number(i, "C_inscribed_2_over_r"), shape.count == 3, 0.0});
   }
   return {measure_entry<mayer_stowe_princen>("mayer_stowe_princen", msp),
           measure_entry<inscribed_circle>("inscribed_circle", inscribed)};
@@ -255,8 +255,8 @@ std::vector<law_report> measure_mirror_sides(const csv_table& t) {
   for (std::size_t i = 0; i < t.size(); ++i) {
     const double gap = t.number(i, "gap_over_R");
     const double angle = openings::degrees(t.number(i, "theta_deg"));
-    arcs.push_back({ring_of_discs(3, 1.0, gap).value, angle, "ok", t.number(i, "C_msp_2D"), true,
-                    half_unit(i, "C_msp_2D")});
+    arcs.push_back(
+        {ring_of_discs(3, 1.0, gap).value, angle, "ok", t.number(i, "C_msp_2D"), true, half_unit(i, "C_msp_2D")});
     open.push_back({ring_of_discs(3, 1.0, gap, gap_state::open).value, angle, "ok", t.number(i, "C_open_2D"), true,
                     half_unit(i, "C_open_2D")});
   }
@@ -267,13 +267,19 @@ std::vector<law_report> measure_mirror_sides(const csv_table& t) {
 std::vector<known_table> known_tables() {
   return {
       {"open_msp: throats of three circles",
-       [](const csv_table& t) { return has_all(t, {"R1", "R2", "R3", "d12", "d13", "d23", "status", "C_msp", "r_ins"}); },
+       [](const csv_table& t) {
+         return has_all(t, {"R1", "R2", "R3", "d12", "d13", "d23", "status", "C_msp", "r_ins"});
+       },
        measure_throats},
       {"closed_forms: named shapes",
-       [](const csv_table& t) { return has_all(t, {"shape", "scale", "theta_deg", "C_msp", "C_inscribed_2_over_r"}); },
+       [](const csv_table& t) {
+         return has_all(t, {"shape", "scale", "theta_deg", "C_msp", "C_inscribed_2_over_r"});
+       },
        measure_closed_forms},
       {"se_results: three spheres with mirror sides",
-       [](const csv_table& t) { return has_all(t, {"theta_deg", "gap_over_R", "C_msp_2D", "C_open_2D"}); },
+       [](const csv_table& t) {
+         return has_all(t, {"theta_deg", "gap_over_R", "C_msp_2D", "C_open_2D"});
+       },
        measure_mirror_sides},
   };
 }

@@ -145,9 +145,7 @@ class random_throats {
   [[nodiscard]] double uniform(double lo, double hi) {
     return lo + (hi - lo) * (static_cast<double>(engine_() >> 11U) * 0x1p-53);
   }
-  [[nodiscard]] double contact_angle() {
-    return uniform(0, 1) < 0.4 ? 0.0 : degrees(uniform(0, 85));
-  }
+  [[nodiscard]] double contact_angle() { return uniform(0, 1) < 0.4 ? 0.0 : degrees(uniform(0, 85)); }
   /// Width of a gap between radii of about 1: near contact, wide, or an overlap.
   [[nodiscard]] double gap() {
     const double kind = uniform(0, 1);

@@ -119,7 +119,7 @@ template <class Vector, class T>
   if (b + root > T(0)) {
     return {c / (b + root), true};
   }
-  // Both roots of a r² - 2 b r + c have the sign of c / (b - root): the sides open away from the base.
+  // b < 0: both roots of a r² - 2 b r + c lie on one side; the smaller in size is c / (b - root).
   if (!(b - root < T(0)) || !(c < T(0))) {
     return {T(0), false};
   }
@@ -171,7 +171,8 @@ template <class Vector, class T, class Answer>
 /// \par Units  [m]
 /// \par Domain  any mix of discs and wall lines, not collinear; overlapping discs give a radius that is not positive
 /// \par Accuracy  relative 64 ε / (radius of the smallest disc, in units of the largest distance), where the triangle is
-///                not a sliver; measured on the truth table 2e-15
+///                not a sliver; worst on open_msp.csv 9.1e-14 (a throat nearly
+///                closed), 1e-15 as a rule
 /// \par Source  problem of Apollonius: differences of the three tangency conditions are linear in the centre; the radius
 ///              is a root of a quadratic. Chareyre et al. 2017, §2.3
 template <real T>

@@ -119,7 +119,8 @@ TEST_CASE("a disc inside another, coincident and collinear discs are no_hole") {
   check_all(lost_arc{msp}, row, entry_status::lost_arc);
 }
 
-TEST_CASE("gap_limited becomes lost_arc at 2 σ / gap for θ = 0, and the limit of equal rods is where the sheet has it") {
+TEST_CASE(
+    "gap_limited becomes lost_arc at 2 σ / gap for θ = 0, and the limit of equal rods is where the sheet has it") {
   const mayer_stowe_princen msp{.surface_tension = 1.0};
   const double limit = 0.58584625664443371;
   CHECK(msp.entry_pressure(ring_of_discs(3, 1.0, limit * (1 - 1e-12)).value).reason == entry_status::ok);

@@ -109,11 +109,12 @@ conformance examine(const Make& law_at, std::size_t count, std::uint64_t seed, c
     const auto answer = law.entry_pressure(o);
     const double shift = next.uniform(-1, 1) * extent(o);
     const double factor = std::pow(10.0, next.uniform(-6, 6));
-    const std::array<std::pair<opening<double>, double>, 5> same{{{rotated(o, 1), 1},
-                                                                  {rotated(o, 2), 1},
-                                                                  {mirrored(o), 1},
-                                                                  {turned(moved(o, {shift, -shift}), next.uniform(-3, 3)), 1},
-                                                                  {scaled(o, factor), factor}}};
+    const std::array<std::pair<opening<double>, double>, 5> same{
+        {{rotated(o, 1), 1},
+         {rotated(o, 2), 1},
+         {mirrored(o), 1},
+         {turned(moved(o, {shift, -shift}), next.uniform(-3, 3)), 1},
+         {scaled(o, factor), factor}}};
     CAPTURE(i);
     CAPTURE(seed);
     for (const auto& [other, by] : same) {
@@ -161,7 +162,8 @@ const auto msp = [](double tension, double angle) {
 
 }  // namespace
 
-TEST_CASE("mayer_stowe_princen: proportional to σ/length, invariant under motions, at θ = 0 never lower when a grain grows") {
+TEST_CASE(
+    "mayer_stowe_princen: proportional to σ/length, invariant under motions, at θ = 0 never lower when a grain grows") {
   // With a contact angle the arcs shorten when a small disc with a short wetted arc grows, and the pressure may fall:
   // dF/dR = (R + r cos θ) e − 2 r sin θ. Without one it is never negative.
   const auto c = examine(msp, 100000, 1, [](const opening<double>&, double angle) { return angle == 0; });
@@ -173,9 +175,7 @@ TEST_CASE("mayer_stowe_princen: proportional to σ/length, invariant under motio
 
 TEST_CASE("inscribed_circle: the same properties") {
   const auto c = examine(
-      [](double tension, double angle) {
-        return inscribed_circle{.surface_tension = tension, .contact_angle = angle};
-      },
+      [](double tension, double angle) { return inscribed_circle{.surface_tension = tension, .contact_angle = angle}; },
       100000, 2, [](const opening<double>& o, double) { return surrounded(o); });
   CHECK(c.answered > 80000);
   CHECK(c.moved_status < 20);
@@ -242,9 +242,9 @@ TEST_CASE("the derivative for moving grains agrees with differences in long doub
     // Some gaps open, where they have a width that a difference cannot close.
     for (std::size_t k = 0; k < 3; ++k) {
       const bool discs = o.sides[k].kind == side_kind::disc && o.sides[o.next(k)].kind == side_kind::disc;
-      const double width = discs ? norm(o.sides[k].point - o.sides[o.next(k)].point) - o.sides[k].radius -
-                                       o.sides[o.next(k)].radius
-                                 : 0.0;
+      const double width =
+          discs ? norm(o.sides[k].point - o.sides[o.next(k)].point) - o.sides[k].radius - o.sides[o.next(k)].radius
+                : 0.0;
       o.gaps[k] = i % 4 == 0 && width > 0.01 ? gap_state::open : gap_state::liquid;
     }
     const auto slope = law.derivative(o);

@@ -18,7 +18,9 @@ mayer_stowe_princen at(double degrees_of_contact) {
 }
 
 opening<double> shape(const std::string& name) {
-  const auto sides = [&] { return static_cast<std::size_t>(std::atoi(name.c_str() + (name.rfind("reg", 0) == 0 ? 8 : 0))); };
+  const auto sides = [&] {
+    return static_cast<std::size_t>(std::atoi(name.c_str() + (name.rfind("reg", 0) == 0 ? 8 : 0)));
+  };
   if (name.rfind("regular_", 0) == 0) {
     return regular_polygon(sides(), 1.0).value;
   }
@@ -109,7 +111,8 @@ TEST_CASE("closed_forms.csv: polygons, rings of rods and rods on a plate of 3 to
     CHECK(error_of(answer.value, t.number(i, "C_msp")) < 1e-13 * near_limit);
     if (o.count == 3) {
       const auto inscribed =
-          inscribed_circle{.surface_tension = 1.0, .contact_angle = degrees(t.number(i, "theta_deg"))}.entry_pressure(o);
+          inscribed_circle{.surface_tension = 1.0, .contact_angle = degrees(t.number(i, "theta_deg"))}.entry_pressure(
+              o);
       const double factor = name.rfind("regular", 0) == 0 ? 1.0 : std::cos(degrees(t.number(i, "theta_deg")));
       CHECK(error_of(inscribed.value, t.number(i, "C_inscribed_2_over_r") * factor) < 1e-13);
     }

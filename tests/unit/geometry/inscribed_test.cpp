@@ -34,11 +34,10 @@ TEST_CASE("the circle between three touching rods has radius 2/√3 − 1, betwe
         doctest::Approx(1 - r).epsilon(1e-14));
 }
 
-TEST_CASE("the sphere between four touching spheres has radius √(3/2) − 1, in the corner of a cube cut off 1/(3 + √3)") {
+TEST_CASE(
+    "the sphere between four touching spheres has radius √(3/2) − 1, in the corner of a cube cut off 1/(3 + √3)") {
   const double a = 1 / std::sqrt(2.0);
-  const auto round = [](double x, double y, double z) {
-    return bounding_side3<double>{{x, y, z}, {}, 1, false};
-  };
+  const auto round = [](double x, double y, double z) { return bounding_side3<double>{{x, y, z}, {}, 1, false}; };
   const double k = 2 * a;
   const auto s = sphere_between<double>({round(0, 0, 0), round(k, k, 0), round(k, 0, k), round(0, k, k)});
   CHECK(s.ok());

@@ -39,7 +39,7 @@ struct inscribed_circle {
   double contact_angle = 0;
 
   /// Relative, of the radius, on the truth table.
-  static constexpr double stated_accuracy = 1e-13;
+  static constexpr double stated_accuracy = 1.8e-13;
 
   template <real T>
   [[nodiscard]] outcome<T, entry_status> entry_pressure(const opening<T>& o) const noexcept {
