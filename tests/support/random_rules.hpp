@@ -5,6 +5,7 @@
 
 #include "tetrapore/two_phase/entry_rule.hpp"
 
+#include <algorithm>
 #include <random>
 #include <vector>
 
@@ -121,6 +122,16 @@ struct random_state_rule {
   std::vector<int> slope;
 };
 
+/// The same, with bounds that hold in every state.
+struct random_bounded_rule : random_state_rule {
+  using random_state_rule::random_state_rule;
+
+  [[nodiscard]] double lower_bound(tetrapore::throat_id t) const {
+    const auto& both = fixed.thresholds[t.index()];
+    return std::min(both[0], both[1]) + std::min(4 * slope[t.index()], 0) + 20;
+  }
+};
+
 /// A rule whose values come from an experiment: it knows brackets, and settles a throat only when asked to.
 struct random_settling_rule {
   static constexpr bool depends_on_state = false;
@@ -159,5 +170,6 @@ struct random_settling_rule {
   std::size_t experiments = 0;
 };
 
+static_assert(tetrapore::bounds_thresholds<random_bounded_rule> && !tetrapore::bounds_thresholds<random_state_rule>);
 static_assert(tetrapore::entry_rule<random_fixed_rule> && tetrapore::entry_rule<random_state_rule> &&
               tetrapore::entry_rule<random_settling_rule>);

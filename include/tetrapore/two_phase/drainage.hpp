@@ -93,6 +93,7 @@ class drainage {
     if constexpr (Rule::depends_on_state) {
       key_.assign(net.throat_count(), no_key);
       reason_.assign(net.throat_count(), entry_status::ok);
+      bounded_.assign(by_bounds ? net.throat_count() : 0, 0);
     } else {
       best_.assign(net.pore_count(), infinity<double>);
     }
@@ -318,8 +319,19 @@ class drainage {
     }
   }
 
+  /// Whether thresholds stand on the heap by their lower bounds until these come up.
+  static constexpr bool by_bounds = Rule::depends_on_state && bounds_thresholds<Rule>;
+
   /// Asks for the threshold of a throat of the front, and puts it on the heap unless it is there as it is.
   void ask(throat_id t, pore_id target) {
+    if constexpr (by_bounds) {
+      const double bound = rule_->lower_bound(t);
+      bounded_[t.index()] = 1;
+      if (std::exchange(key_[t.index()], bound) != bound) {
+        heap_.push({bound, t, target});
+      }
+      return;
+    }
     const threshold_outcome answer = rule_->threshold(*net_, state_, t);
     const bool passable = answer.kind() == verdict::ok;
     if constexpr (Rule::depends_on_state) {
@@ -364,12 +376,28 @@ class drainage {
   }
 
   /// Drops what no longer holds from the top of the heap; false when the heap is empty then.
-  [[nodiscard]] bool clean_top() noexcept {
+  [[nodiscard]] bool clean_top() {
     while (!heap_.empty()) {
-      const detail::front_entry& e = heap_.top();
+      const detail::front_entry e = heap_.top();
       bool holds = state_.is_drainable(e.target);
       if constexpr (Rule::depends_on_state) {
         holds = holds && key_[e.throat.index()] == e.key;
+      }
+      if constexpr (by_bounds) {
+        if (holds && std::exchange(bounded_[e.throat.index()], std::uint8_t{0}) != 0) {
+          const threshold_outcome answer = rule_->threshold(*net_, state_, e.throat);
+          const bool passable = answer.kind() == verdict::ok;
+          const double key = passable ? answer.value.lo : no_key;
+          reason_[e.throat.index()] = answer.reason;
+          key_[e.throat.index()] = key;
+          any_wide_ = any_wide_ || (passable && !answer.value.exact());
+          holds = key == e.key;
+          if (passable && !holds) {
+            heap_.pop();
+            heap_.push({key, e.throat, e.target});
+            continue;
+          }
+        }
       }
       if (holds) {
         return true;
@@ -610,6 +638,7 @@ class drainage {
   std::vector<double> best_;          ///< fixed rules: upper end of the lowest threshold that leads into each pore
   std::vector<double> key_;           ///< state-dependent rules: the key that holds for each throat of the front
   std::vector<entry_status> reason_;  ///< and its reason
+  std::vector<std::uint8_t> bounded_;  ///< and whether the key is only a lower bound
   std::vector<pore_id> newly_fed_;
   std::vector<throat_id> touched_;
   std::vector<candidate> rivals_;

@@ -76,6 +76,13 @@ template <class R>
 concept entry_rule = declares_state_dependence<R> && gives_thresholds<R> && settles_thresholds<R> &&
                      names_touched_throats<R>;
 
+/// A rule whose answers are dear may also bound them: `r.lower_bound(t)` is never above the threshold of t in any state,
+/// infinite where gas can pass in none. The driver then asks for a threshold only when its bound comes up.
+template <class R>
+concept bounds_thresholds = requires(const R r, throat_id t) {
+  { r.lower_bound(t) } -> std::same_as<double>;
+};
+
 /// Counts per entry_status.
 class status_counts {
  public:

@@ -33,7 +33,8 @@ enum class gap_model : unsigned char {
   return "not a gap model";
 }
 
-/// How the merged facets came out: the last answer for each throat that came to the front.
+/// How the merged facets came out: the last answer for each throat that was asked. A driver asks for the throats of the
+/// front whose lower bound came within its reach.
 struct merge_counts {
   std::size_t merged = 0;      ///< throats whose threshold is that of a ring of several facets
   std::size_t at_arc = 0;      ///< of these: the ring could be entered at once when the arc was lost
@@ -79,6 +80,12 @@ class facet_rule {
       facets_.add(s);
     }
     if constexpr (depends_on_state) {
+      bounds_.resize(net.throat_count());
+      cores.blocks(net.throat_count(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t t = begin; t < end; ++t) {
+          bounds_[t] = bound_of(net, throat_id(t));
+        }
+      });
       newest_.assign(net.throat_count(), nothing);
       askings_.assign(net.throat_count(), 0);
       last_.assign(net.throat_count(), account{});
@@ -88,7 +95,7 @@ class facet_rule {
   [[nodiscard]] threshold_outcome threshold(const network& net, const two_phase_state& state, throat_id t) {
     const entry_status reason = reasons_[t.index()];
     if constexpr (depends_on_state) {
-      if (reason == entry_status::gap_limited || reason == entry_status::no_hole) {
+      if (gives_way(reason)) {
         const auto& [a, b] = net.pores(t);
         if (b.valid() && state.is_gas(a) != state.is_gas(b)) {
           return merged_threshold(net, state, t);
@@ -97,6 +104,14 @@ class facet_rule {
       }
     }
     return {bracket<double>::exactly(values_[t.index()]), reason};
+  }
+
+  /// Never above the threshold of t in any state: that of the facet alone, or the pressure at which its first arc is lost;
+  /// infinite where there can be none.
+  [[nodiscard]] double lower_bound(throat_id t) const noexcept
+    requires depends_on_state
+  {
+    return bounds_[t.index()];
   }
 
   /// Closed laws have nothing to settle.
@@ -174,18 +189,31 @@ class facet_rule {
     }
   }
 
+  [[nodiscard]] static constexpr bool gives_way(entry_status s) noexcept {
+    return s == entry_status::gap_limited || s == entry_status::no_hole;
+  }
+
+  [[nodiscard]] double bound_of(const network& net, throat_id t) const noexcept {
+    if (!gives_way(reasons_[t.index()])) {
+      return verdict_of(reasons_[t.index()]) == verdict::ok ? values_[t.index()] : infinity<double>;
+    }
+    const auto limit = law_.first_arc_lost(opening_at(net, t));
+    return limit.ok() ? limit.value.pressure : infinity<double>;
+  }
+
   [[nodiscard]] threshold_outcome merged_threshold(const network& net, const two_phase_state& state, throat_id t) {
     const std::size_t side = state.is_gas(net.pores(t)[0]) ? 0 : 1;
     gathered_ring ring(net, net.pores(t)[side], net.slot(t, side));
     const auto is_gas = [&](pore_id p) { return state.is_gas(p); };
     ++askings_[t.index()];
-    double lost = 0;
+    double lost = bounds_[t.index()];
     for (;;) {
       const auto limit = law_.first_arc_lost(ring.ring());
-      if (!limit.ok() || !(limit.value.pressure < infinity<double>)) {
+      if (!limit.ok() || !(limit.value.pressure < infinity<double>) || !(lost < infinity<double>)) {
         return booked(t, lost, {ending::no_ring});
       }
-      lost = limit.value.pressure > lost ? limit.value.pressure : lost;
+      // The first one is the bound, whichever side the facet is seen from.
+      lost = ring.facets().size() > 1 && limit.value.pressure > lost ? limit.value.pressure : lost;
       const std::size_t before = ring.facets().size();
       const auto grown = ring.grow(net, limit.value.gap, is_gas);
       if (ring.facets().size() > before) {
@@ -247,6 +275,7 @@ class facet_rule {
   status_counts facets_;
   tally totals_;
   merge_counts merges_;
+  std::vector<double> bounds_;         ///< merged: per facet, lower bound of its threshold [Pa]
   std::vector<std::uint32_t> newest_;  ///< per facet: the newest note
   std::vector<note> notes_;
   std::uint32_t spare_ = nothing;

@@ -135,13 +135,14 @@ TEST_CASE("drainage with fixed thresholds is the oracle's, in two passes and liv
   MESSAGE(events << " events, " << trapped << " trapped clusters, volume balance to " << defect);
 }
 
-TEST_CASE("drainage with thresholds that depend on the state is the oracle's, event by event") {
+TEST_CASE_TEMPLATE("drainage with thresholds that depend on the state is the oracle's, event by event", Rule,
+                   random_state_rule, random_bounded_rule) {
   std::mt19937 random(4081);
   std::size_t wrong = 0;
   std::size_t events = 0;
   for (int k = 0; k < 1000; ++k) {
     const network net = random_graph(random);
-    random_state_rule rule(net, random);
+    Rule rule(net, random);
     for (const scene& s : scenes) {
       const drainage_options options = options_for(s, trapping_method::automatic);
       const drainage_oracle oracle(net, rule, options);
