@@ -194,6 +194,27 @@ template <std::floating_point T>
   return inscribed * (touching / wet.cosine + (T(0.04) - T(0.08) * wet.sine * wet.sine) * share * share);
 }
 
+/// The inscribed radius of three discs as `circle_between` finds it, from distances that are known by now and without
+/// its care for digits; 0 where there is none.
+template <std::floating_point T>
+[[nodiscard]] T rough_inscribed(const ring_frame<T, 3>& f) noexcept {
+  const T R = f.side(0).radius;
+  const vec2<T> p = f.side(1).point - f.side(0).point;
+  const vec2<T> q = f.side(2).point - f.side(0).point;
+  const T slope_p = f.side(1).radius - R;
+  const T slope_q = f.side(2).radius - R;
+  const T offset_p = T(0.5) * (f.gaps[0].span * f.gaps[0].span - slope_p * (f.side(1).radius + R));
+  const T offset_q = T(0.5) * (f.gaps[2].span * f.gaps[2].span - slope_q * (f.side(2).radius + R));
+  const T inverse = T(1) / cross(p, q);
+  const vec2<T> x0 = vec2<T>{offset_p * q.y - offset_q * p.y, offset_q * p.x - offset_p * q.x} * inverse;
+  const vec2<T> x1 = vec2<T>{slope_q * p.y - slope_p * q.y, slope_p * q.x - slope_q * p.x} * inverse;
+  const T a = dot(x1, x1) - T(1);
+  const T b = R - dot(x0, x1);
+  const T c = dot(x0, x0) - R * R;
+  const T r = c / (b + std::sqrt(b * b - a * c));
+  return r > T(0) ? r : T(0);
+}
+
 template <std::floating_point T>
 [[nodiscard]] entry_root<T> root_of_three(const opening<T>& o, const contact<T>& wet) noexcept {
   ring_frame<T, 3> f;
@@ -207,9 +228,15 @@ template <std::floating_point T>
   if (sound != entry_status::ok) {
     return no_root<T>(sound);
   }
-  const auto c = circle_between(
-      std::array<bounding_side2<T>, 3>{bounding(o.sides[0]), bounding(o.sides[1]), bounding(o.sides[2])});
-  const T start = c.reason == inscribed_status::ok ? usual_radius(wet, c.value.radius, f.least) : T(0);
+  T inscribed = T(0);
+  if (f.plain) {
+    inscribed = rough_inscribed(f);
+  } else if (const auto c = circle_between(
+                 std::array<bounding_side2<T>, 3>{bounding(o.sides[0]), bounding(o.sides[1]), bounding(o.sides[2])});
+             c.ok()) {
+    inscribed = c.value.radius;
+  }
+  const T start = inscribed > T(0) ? usual_radius(wet, inscribed, f.least) : T(0);
   return f.plain ? newton<true>(f, start) : newton<false>(f, start);
 }
 
