@@ -18,7 +18,7 @@ struct oracle_event {
 
 /// What is known of a pore that lost its way to the outlet.
 struct oracle_trap {
-  double pressure = -1;   ///< -1: not trapped
+  double pressure = -1;     ///< -1: not trapped
   std::size_t cluster = 0;  ///< least pore of the cluster it was trapped with
 };
 

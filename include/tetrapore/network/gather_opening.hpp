@@ -16,12 +16,12 @@ namespace tetrapore::inline TETRAPORE_ABI {
 
 /// The opening of a facet, with the vertex that each side stands for.
 struct facet_opening {
-  opening<double> ring;              ///< three sides; gap k lies between the vertices slots[k] and slots[k + 1]
-  std::array<std::uint8_t, 3> slots; ///< vertices of the pore from which the facet was seen
+  opening<double> ring;               ///< three sides; gap k lies between the vertices slots[k] and slots[k + 1]
+  std::array<std::uint8_t, 3> slots;  ///< vertices of the pore from which the facet was seen
 };
 
-/// The opening of the facet opposite to vertex `slot` of pore p. Whether it is seen from inside or outside is left open:
-/// an opening and its mirror image are the same to every law.
+/// The opening of the facet opposite to vertex `slot` of pore p. Whether it is seen from inside or outside is left
+/// open: an opening and its mirror image are the same to every law.
 [[nodiscard]] inline facet_opening facet_opening_at(const network& net, pore_id p, std::size_t slot) noexcept {
   facet_opening out;
   std::array<std::uint8_t, 3>& f = out.slots;
@@ -104,9 +104,9 @@ class gathered_ring {
   /// Why a ring did not grow.
   enum class growth : unsigned char {
     grown,
-    no_partner,  ///< the network ends before another facet bounds the gas
+    no_partner,        ///< the network ends before another facet bounds the gas
     closed_on_itself,  ///< the other facet is in the ring already
-    not_a_ring   ///< merging was refused: more than 8 sides
+    not_a_ring         ///< merging was refused: more than 8 sides
   };
 
   /// The facet opposite to vertex `slot` of the gas pore p.
@@ -128,7 +128,7 @@ class gathered_ring {
   template <class IsGas>
   growth grow(const network& net, std::size_t k, const IsGas& is_gas) noexcept {
     const named_gap g = gaps_[k];
-    const edge_cursor from{g.pore, g.first, g.second, static_cast<std::uint8_t>(6 - g.first - g.second - g.facet),
+    const edge_cursor from{g.pore,  g.first, g.second, static_cast<std::uint8_t>(6 - g.first - g.second - g.facet),
                            g.facet, {}};
     const auto end = end_of_gas(net, from, is_gas);
     if (!end) {

@@ -71,8 +71,9 @@ struct drainage_event {
   [[nodiscard]] friend constexpr bool operator==(const drainage_event&, const drainage_event&) = default;
 };
 
-/// Drainage of a network under a rule. Deterministic: ties go to the lower throat id. Can be stopped after any event and
-/// continued from a copy of its state (which can be saved: two_phase/state_file.hpp), with the same events to follow.
+/// Drainage of a network under a rule. Deterministic: ties go to the lower throat id. Can be stopped after any event
+/// and continued from a copy of its state (which can be saved: two_phase/state_file.hpp), with the same events to
+/// follow.
 /// \par Thread safety  one thread at a time; the network and the rule must outlive it
 template <entry_rule Rule>
 class drainage {
@@ -190,7 +191,7 @@ class drainage {
   };
   static constexpr double no_key = infinity<double>;
 
-  // set-up -------------------------------------------------------------------------------------------------------------
+  // set-up ------------------------------------------------------------------------------------------------------------
 
   void check_options() const {
     if (!state_.belongs_to(*net_)) {
@@ -292,7 +293,7 @@ class drainage {
     }
   }
 
-  // the front ----------------------------------------------------------------------------------------------------------
+  // the front ---------------------------------------------------------------------------------------------------------
 
   /// Pore p is gas connected to the inlet: its throats to drainable pores come to the front, and gas behind its other
   /// throats is connected too.
@@ -302,6 +303,13 @@ class drainage {
     newly_fed_.push_back(p);
     for (std::size_t head = 0; head < newly_fed_.size(); ++head) {
       const pore_id from = newly_fed_[head];
+      if constexpr (Asking && requires { rule_->prefetch(throat_id{}); }) {
+        for (const pore_link& l : links_.of(from)) {
+          if (l.to.valid()) {
+            rule_->prefetch(l.throat);
+          }
+        }
+      }
       for (const auto& [to, t] : links_.of(from)) {
         if (!to.valid()) {
           continue;
@@ -422,14 +430,16 @@ class drainage {
       choose_among_brackets();
     } else {
       const detail::front_entry e = heap_.top();
+      links_.prefetch(e.target);
       heap_.pop();
       next_ = {bracket<double>::exactly(e.key), e.throat, e.target};
     }
     return true;
   }
 
-  /// Takes all candidates off the heap whose bracket overlaps the lowest one, lets the rule settle them, and repeats until
-  /// a single one is left or nothing narrows any more; then the least value decides, and the lower id among equals.
+  /// Takes all candidates off the heap whose bracket overlaps the lowest one, lets the rule settle them, and repeats
+  /// until a single one is left or nothing narrows any more; then the least value decides, and the lower id among
+  /// equals.
   void choose_among_brackets() {
     for (;;) {
       rivals_.clear();
@@ -484,7 +494,7 @@ class drainage {
     }
   }
 
-  // events -------------------------------------------------------------------------------------------------------------
+  // events ------------------------------------------------------------------------------------------------------------
 
   [[nodiscard]] bool opens_level(double threshold) const noexcept {
     return state_.level() == 0 || threshold > state_.pressure();
@@ -502,17 +512,18 @@ class drainage {
     events_.push_back({p, t, state_.pressure(), threshold, volume, state_.level(), reason});
   }
 
-  // trapping -----------------------------------------------------------------------------------------------------------
+  // trapping ----------------------------------------------------------------------------------------------------------
 
   void prepare_trapping() {
     const bool mid_level = options_.trap == trapping::per_level && state_.level() > 0 && find_next() &&
                            next_.threshold.value() <= state_.pressure();
-    const bool exact = !Rule::depends_on_state && !mid_level &&
-                       (options_.trap == trapping::per_event || options_.level_margin == 0);
+    const bool exact =
+        !Rule::depends_on_state && !mid_level && (options_.trap == trapping::per_event || options_.level_margin == 0);
     if (options_.method == trapping_method::two_passes && !exact) {
-      throw parameter_error("trapping method", "two passes",
-                            "the live method: two passes are exact only where thresholds do not depend on the state, and "
-                            "for trapping per level only without a margin and from the end of a level");
+      throw parameter_error(
+          "trapping method", "two passes",
+          "the live method: two passes are exact only where thresholds do not depend on the state, and "
+          "for trapping per level only without a margin and from the end of a level");
     }
     two_passes_ = exact && options_.method != trapping_method::live;
     live_ = !two_passes_;
@@ -611,6 +622,9 @@ class drainage {
       return false;
     }
     const planned& e = plan_[done_++];
+    if (constexpr std::size_t ahead = 8; done_ + ahead < plan_.size()) {
+      state_.prefetch(plan_[done_ + ahead].pore);
+    }
     const entry_status reason = rule_->threshold(*net_, state_, e.throat).reason;
     record(e.pore, e.throat, e.threshold, reason);
     state_.mark_fed(e.pore);
@@ -635,9 +649,9 @@ class drainage {
   detail::front_heap heap_;
   candidate next_;
   bool any_wide_ = false;
-  std::vector<double> best_;          ///< fixed rules: upper end of the lowest threshold that leads into each pore
-  std::vector<double> key_;           ///< state-dependent rules: the key that holds for each throat of the front
-  std::vector<entry_status> reason_;  ///< and its reason
+  std::vector<double> best_;           ///< fixed rules: upper end of the lowest threshold that leads into each pore
+  std::vector<double> key_;            ///< state-dependent rules: the key that holds for each throat of the front
+  std::vector<entry_status> reason_;   ///< and its reason
   std::vector<std::uint8_t> bounded_;  ///< and whether the key is only a lower bound
   std::vector<pore_id> newly_fed_;
   std::vector<throat_id> touched_;

@@ -38,9 +38,7 @@ using threshold_outcome = outcome<bracket<double>, entry_status>;
 
 /// A rule says at compile time whether its thresholds move with the state.
 template <class R>
-concept declares_state_dependence = requires {
-  typename std::bool_constant<R::depends_on_state>;
-};
+concept declares_state_dependence = requires { typename std::bool_constant<R::depends_on_state>; };
 
 /// A rule gives the threshold of one throat.
 template <class R>
@@ -73,11 +71,11 @@ concept names_touched_throats = requires(R r, const network& net, const two_phas
 ///   may have changed by that; the throats of p itself need not be named. Nothing where depends_on_state is false.
 /// Models: facet_rule, and any rule of the user.
 template <class R>
-concept entry_rule = declares_state_dependence<R> && gives_thresholds<R> && settles_thresholds<R> &&
-                     names_touched_throats<R>;
+concept entry_rule =
+    declares_state_dependence<R> && gives_thresholds<R> && settles_thresholds<R> && names_touched_throats<R>;
 
-/// A rule whose answers are dear may also bound them: `r.lower_bound(t)` is never above the threshold of t in any state,
-/// infinite where gas can pass in none. The driver then asks for a threshold only when its bound comes up.
+/// A rule whose answers are dear may also bound them: `r.lower_bound(t)` is never above the threshold of t in any
+/// state, infinite where gas can pass in none. The driver then asks for a threshold only when its bound comes up.
 template <class R>
 concept bounds_thresholds = requires(const R r, throat_id t) {
   { r.lower_bound(t) } -> std::same_as<double>;

@@ -20,8 +20,8 @@ namespace tetrapore::inline TETRAPORE_ABI {
 /// What stands for the threshold of a facet that the law refuses as gap_limited or no_hole.
 enum class gap_model : unsigned char {
   lost_arc,  ///< the pressure at which the widest gap loses its arc; a lower bound, fixed
-  merged,    ///< the facet shares one meniscus with the other facet that bounds the gas at that gap; moves with the state
-  refused    ///< nothing: gas does not pass
+  merged,  ///< the facet shares one meniscus with the other facet that bounds the gas at that gap; moves with the state
+  refused  ///< nothing: gas does not pass
 };
 
 [[nodiscard]] constexpr const char* describe(gap_model m) noexcept {
@@ -46,15 +46,15 @@ struct merge_counts {
 
 /// The thresholds of an entry law, each facet seen as an opening of its own.
 ///
-/// gap_model::merged: gas waits at a facet whose widest gap loses its arc at p_arc, before the law would let it in. Once
-/// p_c > p_arc no liquid is left in that gap, and the meniscus continues through it onto the other facet that bounds the
-/// gas there. Both facets, unfolded about the edge, are one opening, which the law is asked about; where a gap of that
-/// ring in turn gives way first, the facet there joins too. With the arcs gone at p_1, p_2, … and the last ring entered at
-/// p_ring, the threshold is the largest of them all: below p_k the gap k still holds its ring of liquid and the larger
-/// meniscus does not exist; where p_ring is below that, the larger meniscus is unstable as it forms, and gas passes at
-/// p_k. Hence merged is never below lost_arc. A facet that has a threshold of its own keeps it: all of its gaps outlive
-/// it. Where the network ends at a gap, or no ring of 8 sides suffices, the pressure of the arc lost last stands, with
-/// the status lost_arc, and is counted in `merges`.
+/// gap_model::merged: gas waits at a facet whose widest gap loses its arc at p_arc, before the law would let it in.
+/// Once p_c > p_arc no liquid is left in that gap, and the meniscus continues through it onto the other facet that
+/// bounds the gas there. Both facets, unfolded about the edge, are one opening, which the law is asked about; where a
+/// gap of that ring in turn gives way first, the facet there joins too. With the arcs gone at p_1, p_2, … and the
+/// last ring entered at p_ring, the threshold is the largest of them all: below p_k the gap k still holds its ring of
+/// liquid and the larger meniscus does not exist; where p_ring is below that, the larger meniscus is unstable as it
+/// forms, and gas passes at p_k. Hence merged is never below lost_arc. A facet that has a threshold of its own keeps
+/// it: all of its gaps outlive it. Where the network ends at a gap, or no ring of 8 sides suffices, the pressure of
+/// the arc lost last stands, with the status lost_arc, and is counted in `merges`.
 /// \par Units  pressures [Pa]
 /// \par Thread safety  merged notes which facets each answer rested on: one invasion at a time
 /// \par Source  Princen, J. Colloid Interface Sci. 30, 69 (1969) for the arcs; the merging of facets is derived here
@@ -67,17 +67,13 @@ class facet_rule {
 
   /// Asks the law about every facet.
   template <executor E = serial>
-  facet_rule(const network& net, const Law& law, const E& cores = {})
-      : law_(law), values_(net.throat_count()), reasons_(net.throat_count()) {
+  facet_rule(const network& net, const Law& law, const E& cores = {}) : law_(law), answers_(net.throat_count()) {
     totals_ = evaluate(
         cores, net.throat_count(), [&](const opening<double>& o) noexcept { return asked(o); },
         [&](std::size_t t) { return opening_at(net, throat_id(t)); },
-        [&](std::size_t t, const outcome<double, entry_status>& answer) {
-          values_[t] = answer.value;
-          reasons_[t] = answer.reason;
-        });
-    for (const entry_status s : reasons_) {
-      facets_.add(s);
+        [&](std::size_t t, const outcome<double, entry_status>& answer) { answers_[t] = answer; });
+    for (const auto& answer : answers_) {
+      facets_.add(answer.reason);
     }
     if constexpr (depends_on_state) {
       bounds_.resize(net.throat_count());
@@ -93,7 +89,7 @@ class facet_rule {
   }
 
   [[nodiscard]] threshold_outcome threshold(const network& net, const two_phase_state& state, throat_id t) {
-    const entry_status reason = reasons_[t.index()];
+    const auto& [value, reason] = answers_[t.index()];
     if constexpr (depends_on_state) {
       if (gives_way(reason)) {
         const auto& [a, b] = net.pores(t);
@@ -103,16 +99,19 @@ class facet_rule {
         return {bracket<double>::exactly(quiet_nan<double>), reason};
       }
     }
-    return {bracket<double>::exactly(values_[t.index()]), reason};
+    return {bracket<double>::exactly(value), reason};
   }
 
-  /// Never above the threshold of t in any state: that of the facet alone, or the pressure at which its first arc is lost;
-  /// infinite where there can be none.
+  /// Never above the threshold of t in any state: that of the facet alone, or the pressure at which its first arc is
+  /// lost; infinite where there can be none.
   [[nodiscard]] double lower_bound(throat_id t) const noexcept
     requires depends_on_state
   {
     return bounds_[t.index()];
   }
+
+  /// Begins to fetch what `threshold` will need.
+  void prefetch(throat_id t) const noexcept { detail::prefetch(&answers_[t.index()]); }
 
   /// Closed laws have nothing to settle.
   void settle(const network&, const two_phase_state&, std::span<const throat_id>) const noexcept {}
@@ -145,11 +144,9 @@ class facet_rule {
   /// The same per verdict, with the first throat of each.
   [[nodiscard]] const tally& totals() const noexcept { return totals_; }
   /// The law's answer for a facet alone; for a facet that came to the front under merged, its last threshold.
-  [[nodiscard]] double value(throat_id t) const noexcept { return values_[t.index()]; }
+  [[nodiscard]] double value(throat_id t) const noexcept { return answers_[t.index()].value; }
   /// The law's reason for a facet alone.
-  [[nodiscard]] entry_status reason(throat_id t) const noexcept { return reasons_[t.index()]; }
-  [[nodiscard]] std::span<const double> values() const noexcept { return values_; }
-  [[nodiscard]] std::span<const entry_status> reasons() const noexcept { return reasons_; }
+  [[nodiscard]] entry_status reason(throat_id t) const noexcept { return answers_[t.index()].reason; }
   /// How merging came out so far.
   [[nodiscard]] const merge_counts& merges() const noexcept { return merges_; }
   /// Begins the counts and notes of merging anew, for another invasion.
@@ -194,8 +191,9 @@ class facet_rule {
   }
 
   [[nodiscard]] double bound_of(const network& net, throat_id t) const noexcept {
-    if (!gives_way(reasons_[t.index()])) {
-      return verdict_of(reasons_[t.index()]) == verdict::ok ? values_[t.index()] : infinity<double>;
+    const auto& alone = answers_[t.index()];
+    if (!gives_way(alone.reason)) {
+      return alone.ok() ? alone.value : infinity<double>;
     }
     const auto limit = law_.first_arc_lost(opening_at(net, t));
     return limit.ok() ? limit.value.pressure : infinity<double>;
@@ -249,14 +247,13 @@ class facet_rule {
   threshold_outcome booked(throat_id t, double value, account now) {
     account& last = last_[t.index()];
     if (last.how != ending::not_asked) {
-      now.moved = last.moved || value != values_[t.index()];
+      now.moved = last.moved || value != answers_[t.index()].value;
       count(last, -1);
     }
     count(now, +1);
     last = now;
-    values_[t.index()] = value;
-    return {bracket<double>::exactly(value),
-            now.how == ending::ring ? entry_status::merged : entry_status::lost_arc};
+    answers_[t.index()].value = value;
+    return {bracket<double>::exactly(value), now.how == ending::ring ? entry_status::merged : entry_status::lost_arc};
   }
 
   void count(const account& a, int by) noexcept {
@@ -270,8 +267,7 @@ class facet_rule {
   }
 
   Law law_;
-  std::vector<double> values_;
-  std::vector<entry_status> reasons_;
+  std::vector<outcome<double, entry_status>> answers_;
   status_counts facets_;
   tally totals_;
   merge_counts merges_;

@@ -19,9 +19,9 @@ struct meniscus_area {
 };
 
 /// Estimate of the area between gas and liquid at the throats. A throat of entry pressure p_e counts as a round opening
-/// of the same entry pressure, of radius a = 2 σ cos θ / p_e; its meniscus is the cap of the sphere of radius 2σ/p over it,
-/// A = 2π a² / (1 + √(1 − (a p / 2σ)²)). p is the capillary pressure of the state, for a trapped pore that of its
-/// cluster. Rings of liquid around contacts are not included.
+/// of the same entry pressure, of radius a = 2 σ cos θ / p_e; its meniscus is the cap of the sphere of radius 2σ/p
+/// over it, A = 2π a² / (1 + √(1 − (a p / 2σ)²)). p is the capillary pressure of the state, for a trapped pore that
+/// of its cluster. Rings of liquid around contacts are not included.
 /// \par Units     [N/m], [rad] -> [m²]
 /// \par Accuracy  exact for a round opening; the section of a facet is larger than its round one, of which see
 ///                docs/accuracy.md, so this is a low estimate

@@ -21,8 +21,8 @@ struct retention_point {
   std::uint32_t level;
 };
 
-/// The curve as a staircase: at the pressure of each point the saturation falls to that of the point, and stays until the
-/// pressure of the next.
+/// The curve as a staircase: at the pressure of each point the saturation falls to that of the point, and stays until
+/// the pressure of the next.
 class retention_curve {
  public:
   template <entry_rule Rule>
@@ -65,7 +65,8 @@ class retention_curve {
     return points_.empty() ? initial_interior_ : points_.back().interior_saturation;
   }
 
-  /// Capillary pressure of the first level at whose end the saturation is at most s [Pa]; empty when the curve ends above.
+  /// Capillary pressure of the first level at whose end the saturation is at most s [Pa]; empty when the curve ends
+  /// above.
   [[nodiscard]] std::optional<double> pressure_at(double s) const noexcept {
     // Saturation falls from point to point.
     const auto at = std::partition_point(points_.begin(), points_.end(),

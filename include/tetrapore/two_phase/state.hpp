@@ -16,12 +16,19 @@
 
 namespace tetrapore::inline TETRAPORE_ABI {
 
+namespace detail {
+
+/// Asks for a cache line before it is needed.
+inline void prefetch(const void* address) noexcept { __builtin_prefetch(address); }
+
+}  // namespace detail
+
 /// A connected set of wet pores that lost its way to the outlet.
 struct trapped_cluster {
-  double pressure = 0;       ///< [Pa] capillary pressure at which it was cut off; it keeps it
-  double volume = 0;         ///< [m³] liquid in it
-  std::uint32_t pores = 0;   ///< number of its pores
-  std::uint32_t level = 0;   ///< level at whose end, or in which, it was cut off; 0: before the first
+  double pressure = 0;      ///< [Pa] capillary pressure at which it was cut off; it keeps it
+  double volume = 0;        ///< [m³] liquid in it
+  std::uint32_t pores = 0;  ///< number of its pores
+  std::uint32_t level = 0;  ///< level at whose end, or in which, it was cut off; 0: before the first
 
   [[nodiscard]] friend constexpr bool operator==(const trapped_cluster&, const trapped_cluster&) = default;
 };
@@ -66,7 +73,9 @@ class two_phase_state {
   [[nodiscard]] bool is_trapped(pore_id p) const noexcept { return (flags_[p.index()] & trapped_bit) != 0; }
   [[nodiscard]] bool is_inlet(pore_id p) const noexcept { return (flags_[p.index()] & inlet_bit) != 0; }
   [[nodiscard]] bool is_outlet(pore_id p) const noexcept { return (flags_[p.index()] & outlet_bit) != 0; }
-  [[nodiscard]] bool is_reservoir(pore_id p) const noexcept { return (flags_[p.index()] & (inlet_bit | outlet_bit)) != 0; }
+  [[nodiscard]] bool is_reservoir(pore_id p) const noexcept {
+    return (flags_[p.index()] & (inlet_bit | outlet_bit)) != 0;
+  }
   /// Whether the pore is gas that is connected to the inlet.
   [[nodiscard]] bool is_fed(pore_id p) const noexcept { return (flags_[p.index()] & fed_bit) != 0; }
   /// Whether gas may still enter the pore: wet, not trapped, not the outlet.
@@ -86,7 +95,13 @@ class two_phase_state {
   /// Number of pressure levels (bursts) so far.
   [[nodiscard]] std::uint32_t level() const noexcept { return level_; }
 
-  // what drivers do to it ----------------------------------------------------------------------------------------------
+  /// Begins to fetch what `invade` will need.
+  void prefetch(pore_id p) const noexcept {
+    detail::prefetch(liquid_.values().data() + p.index());
+    detail::prefetch(invasion_pressure_.data() + p.index());
+  }
+
+  // what drivers do to it ---------------------------------------------------------------------------------------------
 
   /// Marks the phase alone; volumes and history stay.
   void mark_gas(pore_id p) noexcept { flags_[p.index()] = static_cast<std::uint8_t>(flags_[p.index()] | gas_bit); }
@@ -96,7 +111,9 @@ class two_phase_state {
     flags_[p.index()] = static_cast<std::uint8_t>(flags_[p.index()] & ~(gas_bit | fed_bit));
   }
   void mark_inlet(pore_id p) noexcept { flags_[p.index()] = static_cast<std::uint8_t>(flags_[p.index()] | inlet_bit); }
-  void mark_outlet(pore_id p) noexcept { flags_[p.index()] = static_cast<std::uint8_t>(flags_[p.index()] | outlet_bit); }
+  void mark_outlet(pore_id p) noexcept {
+    flags_[p.index()] = static_cast<std::uint8_t>(flags_[p.index()] | outlet_bit);
+  }
   /// Forgets which pores are reservoirs, and which gas they feed.
   void clear_reservoirs() noexcept {
     for (std::uint8_t& f : flags_) {

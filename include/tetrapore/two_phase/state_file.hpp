@@ -64,7 +64,8 @@ struct state_archive {
     }
     std::memcpy(&head, bytes.data(), sizeof head);
     if (head.magic != magic || head.order != order_mark) {
-      throw input_error(where + ", byte 0", "other bytes", "the mark of a two-phase state of this version and byte order");
+      throw input_error(where + ", byte 0", "other bytes",
+                        "the mark of a two-phase state of this version and byte order");
     }
     const std::uint64_t size = sizeof head + head.pores * (8 + 8 + 4 + 1) + head.clusters * sizeof(trapped_cluster) + 8;
     if (head.pores > 0xffffffffULL || head.clusters > head.pores || bytes.size() != size) {
@@ -76,8 +77,9 @@ struct state_archive {
       throw input_error(where, "a checksum that does not match", "the bytes as they were saved");
     }
     if (head.epoch != net.epoch() || head.pores != net.pore_count() || head.network != fingerprint(net)) {
-      throw input_error(where, "the state of another network (" + std::to_string(head.pores) + " pores, epoch " +
-                                   std::to_string(head.epoch) + ")",
+      throw input_error(where,
+                        "the state of another network (" + std::to_string(head.pores) + " pores, epoch " +
+                            std::to_string(head.epoch) + ")",
                         "one of this network (" + std::to_string(net.pore_count()) + " pores, epoch " +
                             std::to_string(net.epoch()) + ")");
     }
@@ -115,8 +117,8 @@ struct state_archive {
   static_assert(std::is_trivially_copyable_v<header> && std::is_trivially_copyable_v<trapped_cluster>);
 
   [[nodiscard]] static header header_for(const network& net, const two_phase_state& s) {
-    return {magic, order_mark, fingerprint(net), net.epoch(), s.pore_count(),
-            s.clusters_.size(), s.level_, s.pressure_};
+    return {magic,          order_mark,         fingerprint(net), net.epoch(),
+            s.pore_count(), s.clusters_.size(), s.level_,         s.pressure_};
   }
   template <class T, std::size_t N>
   static void append(std::vector<std::byte>& out, std::span<T, N> values) {

@@ -42,6 +42,8 @@ class pore_links {
 
   [[nodiscard]] const std::array<pore_link, 4>& of(pore_id p) const noexcept { return links_[p.index()]; }
 
+  void prefetch(pore_id p) const noexcept { detail::prefetch(&links_[p.index()]); }
+
   /// Calls f(neighbour) for the pores that liquid of pore p can reach through one throat.
   template <class F>
   void around(pore_id p, F&& f) const {
@@ -74,8 +76,8 @@ class cut_off_sets {
     pores_.push_back(static_cast<std::uint32_t>(pore));
     ++sets_.back().count;
   }
-  /// Pores of a set by id; earlier sets first, among those of one time by their least pore: one order, and so one sum of
-  /// volumes, for whichever way the sets were found.
+  /// Pores of a set by id; earlier sets first, among those of one time by their least pore: one order, and so one sum
+  /// of volumes, for whichever way the sets were found.
   void sort() {
     for (const entry& s : sets_) {
       const auto first = pores_.begin() + static_cast<std::ptrdiff_t>(s.begin);
@@ -132,14 +134,16 @@ class live_trapping {
         queue.push_back(static_cast<std::uint32_t>(i));
         flood(from);
         out.begin_set(0);
-        std::for_each(queue.begin() + static_cast<std::ptrdiff_t>(from), queue.end(), [&](std::size_t p) { out.add(p); });
+        std::for_each(queue.begin() + static_cast<std::ptrdiff_t>(from), queue.end(),
+                      [&](std::size_t p) { out.add(p); });
       }
     }
   }
 
-  /// The sets cut off by `invaded`, which just became gas, given that every other wet pore that is not trapped had a way
-  /// to the outlet before. Appends sets of time 0.
-  void find(const two_phase_state& state, const pore_links& links, std::span<const pore_id> invaded, cut_off_sets& out) {
+  /// The sets cut off by `invaded`, which just became gas, given that every other wet pore that is not trapped had a
+  /// way to the outlet before. Appends sets of time 0.
+  void find(const two_phase_state& state, const pore_links& links, std::span<const pore_id> invaded,
+            cut_off_sets& out) {
     seeds_.clear();
     bool at_outlet = false;
     for (const pore_id p : invaded) {
@@ -255,7 +259,8 @@ class live_trapping {
     large.safe = large.safe || small.safe;
     large.joined.push_back(name);
     // What the small one had still to look around is the large one's task; the part looked at stays where it is.
-    large.queue.insert(large.queue.end(), small.queue.begin() + static_cast<std::ptrdiff_t>(small.head), small.queue.end());
+    large.queue.insert(large.queue.end(), small.queue.begin() + static_cast<std::ptrdiff_t>(small.head),
+                       small.queue.end());
     small.queue.resize(small.head);
   }
 
@@ -277,18 +282,19 @@ class live_trapping {
 };
 
 /// Trapping after the fact, exact where thresholds do not depend on the state (Masson 2016, doi
-/// 10.1016/j.cageo.2016.02.003): the invasion was run without trapping; walking it backwards, pores become wet again and
-/// unite; a pore whose set does not reach the outlet when it returns had been trapped, and is deleted from the sequence.
-/// The sequence is cut into groups (single events, or all events of one pressure level); trapping is tested after each.
+/// 10.1016/j.cageo.2016.02.003): the invasion was run without trapping; walking it backwards, pores become wet again
+/// and unite; a pore whose set does not reach the outlet when it returns had been trapped, and is deleted from the
+/// sequence. The sequence is cut into groups (single events, or all events of one pressure level); trapping is tested
+/// after each.
 ///
 /// \param state     the state at the END of the sequence: wet are the pores that were never reached
 /// \param sequence  the pores in the order in which they became gas
 /// \param group_end for each group, the index after its last event
 /// \param kept      one flag per event: false where the pore had been trapped before
 /// \param out       the sets cut off, with time = number of the group after which (0: from the start), in order
-inline void trap_backwards(const two_phase_state& state, const pore_links& links,
-                           std::span<const pore_id> sequence, std::span<const std::uint32_t> group_end,
-                           std::vector<std::uint8_t>& kept, cut_off_sets& out) {
+inline void trap_backwards(const two_phase_state& state, const pore_links& links, std::span<const pore_id> sequence,
+                           std::span<const std::uint32_t> group_end, std::vector<std::uint8_t>& kept,
+                           cut_off_sets& out) {
   const std::size_t n = state.pore_count();
   const std::size_t outlet = n;
   disjoint_sets sets(n + 1);
@@ -343,11 +349,15 @@ inline void trap_backwards(const two_phase_state& state, const pore_links& links
       gather(static_cast<std::uint32_t>(i));
     }
   }
+  constexpr std::size_t ahead = 8;    // events, to fetch their links in time
   std::vector<std::uint32_t> beside;  // one member of each set beside the group that was cut off after it
   kept.assign(sequence.size(), 0);
   for (std::size_t g = group_end.size(); g-- > 0;) {
     const std::size_t begin = g == 0 ? 0 : group_end[g - 1];
     const auto group = sequence.subspan(begin, group_end[g] - begin);
+    if (begin >= ahead) {
+      links.prefetch(sequence[begin - ahead]);
+    }
     beside.clear();
     ++now;
     const std::size_t outlet_root = sets.find(outlet);

@@ -86,7 +86,7 @@ struct van_genuchten_fit {
 /// starting slopes.
 /// \par Accuracy  recovers the parameters of a noise-free curve to 1e-8 (measured, n = 1.2 … 40)
 [[nodiscard]] inline outcome<van_genuchten_fit, fit_status> fit_van_genuchten(std::span<const retention_sample> samples,
-                                                                             double residual) {
+                                                                              double residual) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const van_genuchten_fit none{{nan, nan, residual}, nan, 0};
   if (!(residual >= 0 && residual < 1)) {
@@ -181,10 +181,13 @@ struct van_genuchten_fit {
   return {{law, (1 - residual) * std::sqrt(best / static_cast<double>(used.size())), used.size()}, fit_status::ok};
 }
 
-/// The law fitted to a curve (anything with pressure_at(s) and residual()), sampled at equal steps of saturation, so that
-/// a stretch of many small events weighs no more than one of few large ones. The residual is the curve's own.
+/// The law fitted to a curve (anything with pressure_at(s) and residual()), sampled at equal steps of saturation, so
+/// that a stretch of many small events weighs no more than one of few large ones. The residual is the curve's own.
 template <class Curve>
-  requires requires(const Curve& c) { c.pressure_at(0.5); c.residual(); }
+  requires requires(const Curve& c) {
+    c.pressure_at(0.5);
+    c.residual();
+  }
 [[nodiscard]] outcome<van_genuchten_fit, fit_status> fit_van_genuchten(const Curve& curve, std::size_t samples = 200) {
   const double residual = std::clamp(curve.residual(), 0.0, 1.0);
   std::vector<retention_sample> taken;

@@ -77,10 +77,7 @@ constexpr std::array<scene, 7> scenes{{{trapping::none, 0, false},
                                        {trapping::per_level, 0.2, false}}};
 
 drainage_options options_for(const scene& s, trapping_method method) {
-  return {.trap = s.trap,
-          .method = method,
-          .level_margin = s.margin,
-          .liquid_passes_closed_throats = s.films};
+  return {.trap = s.trap, .method = method, .level_margin = s.margin, .liquid_passes_closed_throats = s.films};
 }
 
 /// Runs half of it, goes on from a copy of the state with a new driver, and returns all the events.

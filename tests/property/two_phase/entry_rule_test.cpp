@@ -69,9 +69,9 @@ network cluster(std::mt19937& random) {
     g.radius = size(random);
   }
   const auto v = [](std::size_t i) { return vertex(grain_id(i)); };
-  return network_of(unbounded(), grains,
-                    {{v(0), v(1), v(2), v(4)}, {v(0), v(1), v(2), v(5)}, {v(0), v(1), v(3), v(4)},
-                     {v(0), v(1), v(3), v(5)}});
+  return network_of(
+      unbounded(), grains,
+      {{v(0), v(1), v(2), v(4)}, {v(0), v(1), v(2), v(5)}, {v(0), v(1), v(3), v(4)}, {v(0), v(1), v(3), v(5)}});
 }
 
 }  // namespace

@@ -40,8 +40,8 @@ table parse(std::istream&& in) {
   return t;
 }
 
-/// Yade's own network and thresholds: the step from pore i into j needs the larger of σ/rt and σ/(inscribed radius of j).
-/// Neighbours that are not in the file lie outside.
+/// Yade's own network and thresholds: the step from pore i into j needs the larger of σ/rt and σ/(inscribed radius of
+/// j). Neighbours that are not in the file lie outside.
 struct peer_network {
   network net;
   std::vector<double> throat_radius;  // 0: closed
@@ -100,8 +100,8 @@ static_assert(entry_rule<peer_rule>);
 
 void compare(const std::string& name, trapping trap) {
   const auto cells = shared_file("data/peer_yade/" + name + "_tpfcells.csv.gz");
-  const auto curve = shared_file("data/peer_yade/" + name + "_drainage_pore" +
-                                 (trap == trapping::none ? "_notrap.csv" : ".csv"));
+  const auto curve =
+      shared_file("data/peer_yade/" + name + "_drainage_pore" + (trap == trapping::none ? "_notrap.csv" : ".csv"));
   if (!cells || !curve) {
     return;
   }

@@ -24,7 +24,7 @@ vertex g(std::size_t i) { return vertex(grain_id(i)); }
 network octahedron(double side, std::size_t cells = 4) {
   const double h = side / 2;
   const double z = side / std::sqrt(2.0);
-  std::vector<sphere<double>> grains{{{-h, -h, 0}, 1}, {{h, h, 0}, 1},  {{h, -h, 0}, 1},
+  std::vector<sphere<double>> grains{{{-h, -h, 0}, 1}, {{h, h, 0}, 1}, {{h, -h, 0}, 1},
                                      {{-h, h, 0}, 1},  {{0, 0, z}, 1}, {{0, 0, -z}, 1}};
   std::vector<std::array<vertex, 4>> all{
       {g(0), g(1), g(2), g(4)}, {g(0), g(1), g(2), g(5)}, {g(0), g(1), g(3), g(4)}, {g(0), g(1), g(3), g(5)}};
@@ -91,8 +91,7 @@ TEST_CASE("the opening of a facet at walls names its walls, and keeps their dist
         }
         for (std::size_t other = 0; other < 3; ++other) {
           if (f.ring.sides[other].kind == side_kind::disc) {
-            const double distance =
-                net.region().wall(v.wall()).distance(net.grain_sphere(p, f.slots[other]).centre);
+            const double distance = net.region().wall(v.wall()).distance(net.grain_sphere(p, f.slots[other]).centre);
             CHECK(dot(side.normal, f.ring.sides[other].point - side.point) == doctest::Approx(distance));
           }
         }
@@ -203,7 +202,8 @@ TEST_CASE("a merged facet is entered at the pressure of the lost arc when its ri
 }
 
 TEST_CASE("facets of equal spheres just beyond the limit of the gap let gas pass when the arc is lost") {
-  // A regular tetrahedron full of gas, a wet pore on each side. All gaps are equal; their limit is 0.58584625664443371 R.
+  // A regular tetrahedron full of gas, a wet pore on each side. All gaps are equal; their limit is
+  // 0.58584625664443371 R.
   const auto law = mayer_stowe_princen{1.0};
   for (const double gap : {0.586, 0.6, 0.65, 0.7}) {
     const double s = 2 + gap;

@@ -61,8 +61,8 @@ TEST_CASE("from liquid volumes, a pore is gas when less than half of its void is
   const network net = chain();
   volume_field liquid(net, 0.9);
   const two_phase_state s(net, liquid, 5.0);
-  CHECK(s.is_wet(pore_id(1)));   // 0.9 of 1
-  CHECK(s.is_gas(pore_id(2)));   // 0.9 of 2
+  CHECK(s.is_wet(pore_id(1)));  // 0.9 of 1
+  CHECK(s.is_gas(pore_id(2)));  // 0.9 of 2
   CHECK(s.liquid()[pore_id(2)] == 0.9);
   CHECK(s.invasion_pressure(pore_id(2)) == 5.0);
 }
@@ -106,8 +106,7 @@ TEST_CASE("drainage stops before a pressure, and at a saturation") {
 
 TEST_CASE("a closed throat stops both phases; liquid passes it only when asked to") {
   // A side pore 3 hangs on a closed throat: it never had a way out.
-  const network net =
-      graph_network({{1, {face::y_max}}, {1}, {1, {face::y_min}}, {1}}, {{0, 1}, {1, 2}, {1, 3}});
+  const network net = graph_network({{1, {face::y_max}}, {1}, {1, {face::y_min}}, {1}}, {{0, 1}, {1, 2}, {1, 3}});
   given_rule rule{{1, 1, infinity<double>}};
   drainage sealed(net, rule);
   sealed.run();
@@ -122,9 +121,8 @@ TEST_CASE("a closed throat stops both phases; liquid passes it only when asked t
 
 TEST_CASE("gas that is not connected to the inlet joins when the front reaches it") {
   // The chain, with two ways around the gas in pore 3 so that nothing is cut off.
-  const network net = graph_network(
-      {{1, {face::y_max}}, {1}, {2}, {3}, {4}, {1, {face::y_min}}},
-      {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}, {1, 5}, {2, 5}});
+  const network net = graph_network({{1, {face::y_max}}, {1}, {2}, {3}, {4}, {1, {face::y_min}}},
+                                    {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}, {1, 5}, {2, 5}});
   volume_field liquid(net);
   for (std::size_t i = 0; i < 6; ++i) {
     liquid[pore_id(i)] = net.void_volume(pore_id(i));
@@ -149,9 +147,7 @@ TEST_CASE("gas that is not connected to the inlet joins when the front reaches i
 TEST_CASE("set-up errors name the parameter, the value and what was expected") {
   const network net = chain();
   given_rule rule{{3, 1, 2, 5, 4}};
-  const auto error = [&](const drainage_options& o) {
-    return message_of([&] { drainage<given_rule>(net, rule, o); });
-  };
+  const auto error = [&](const drainage_options& o) { return message_of([&] { drainage<given_rule>(net, rule, o); }); };
   CHECK(error({.inlet = face_set{}}) == "inlet: found no face, expected at least one face");
   CHECK(error({.outlet = face_set{}}) == "outlet: found no face, expected at least one face, or no trapping");
   CHECK(error({.inlet = face::y_min}) == "inlet and outlet: found both contain {y_min}, expected different faces");
