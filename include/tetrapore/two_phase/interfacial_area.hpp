@@ -23,8 +23,9 @@ struct meniscus_area {
 /// over it, A = 2π a² / (1 + √(1 − (a p / 2σ)²)). p is the capillary pressure of the state, for a trapped pore that
 /// of its cluster. Rings of liquid around contacts are not included.
 /// \par Units     [N/m], [rad] -> [m²]
-/// \par Accuracy  exact for a round opening; the section of a facet is larger than its round one, of which see
-///                docs/accuracy.md, so this is a low estimate
+/// \par Accuracy  exact for a round opening. The gas section A_nw of a facet is larger than its round one: at θ = 0 the
+///                latter is 0.69 to 0.84 of it (median 0.83, the 36,807 facets of a packing of 10,000 spheres that have
+///                a threshold of their own), so this is a low estimate
 template <entry_rule Rule>
 [[nodiscard]] meniscus_area interfacial_area(const network& net, const two_phase_state& state, Rule& rule,
                                              double surface_tension, double contact_angle = 0) {
