@@ -184,3 +184,35 @@ TEST_CASE("a side that the meniscus does not reach is left out of a ring") {
   CHECK(slope.value.by_radius[1] == 0);
   CHECK(slope.value.by_radius[0] > 0);
 }
+
+TEST_CASE("the arc of an edge is lost where the opening that has the gap loses it, and never where grains touch") {
+  for (const double angle : {0.0, 0.4, 1.2}) {
+    const mayer_stowe_princen law{.surface_tension = 0.07, .contact_angle = angle};
+    for (const double r2 : {0.01, 0.5, 1.0, 30.0}) {
+      for (const double gap : {1e-6, 0.1, 2.0}) {
+        const edge<double> e{1.0, r2, gap, {1, 0, 0}};
+        const auto lost = law.arc_lost(e);
+        REQUIRE(lost.ok());
+        // ρ₁ + ρ₂ is the distance of the centres
+        const double r = 0.07 / lost.value;
+        const auto rho = [&](double grain) {
+          return std::sqrt(grain * grain + r * r + 2 * grain * r * std::cos(angle));
+        };
+        CHECK(rho(1.0) + rho(r2) == doctest::Approx(1.0 + r2 + gap).epsilon(1e-14));
+        if (angle == 0.0) {
+          CHECK(lost.value == doctest::Approx(2 * 0.07 / gap).epsilon(1e-9));
+        }
+        const edge<double> back{r2, 1.0, gap, {-1, 0, 0}};
+        CHECK(law.arc_lost(back).value == lost.value);
+      }
+    }
+    const edge<double> plate{1.0, inf, 0.3, {0, 0, 1}};
+    const double r = 0.07 / law.arc_lost(plate).value;
+    CHECK(std::sqrt(1 + r * r + 2 * r * std::cos(angle)) + r * std::cos(angle) == doctest::Approx(1.3).epsilon(1e-14));
+    CHECK(law.arc_lost(edge<double>{1.0, 2.0, 0.0, {1, 0, 0}}).value == inf);
+    CHECK(law.arc_lost(edge<double>{1.0, 2.0, -0.1, {1, 0, 0}}).value == inf);
+    CHECK(law.arc_lost(edge<double>{1.0, -2.0, 0.1, {1, 0, 0}}).reason == entry_status::invalid_input);
+    CHECK(law.arc_lost(edge<double>{not_a_number, 2.0, 0.1, {1, 0, 0}}).reason == entry_status::invalid_input);
+    CHECK(law.arc_lost(edge<double>{1.0, 2.0, not_a_number, {1, 0, 0}}).reason == entry_status::invalid_input);
+  }
+}

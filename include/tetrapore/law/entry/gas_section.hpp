@@ -66,6 +66,25 @@ struct gap_frame {
   }
 };
 
+/// The coefficients of the arc between two discs whose gap has the width g.width. Returns 1 − ((R − R')/d)².
+template <real T>
+[[nodiscard]] constexpr T set_discs(gap_frame<T>& g, const T& small, const T& large, const T& d, const T& per_d,
+                                    const contact<T>& wet) noexcept {
+  const T m = (g.width + T(2) * small) * (g.width + T(2) * large) * per_d * per_d;
+  g.a = wet.sine * wet.sine + wet.cosine * wet.cosine * m;
+  g.b = T(0.5) * wet.cosine * (small + large) * m;
+  g.q = T(0.25) * g.width * m * (d + (small + large));
+  return m;
+}
+
+/// The same for a disc and a line at the distance h of its centre.
+template <real T>
+constexpr void set_disc_and_line(gap_frame<T>& g, const T& radius, const T& h, const contact<T>& wet) noexcept {
+  g.a = wet.sine * wet.sine;
+  g.b = wet.cosine * (radius + h);
+  g.q = g.width * (h + radius);
+}
+
 /// Width of the gap between two sides that may lie anywhere in the ring, and the frame of its arc. Returns false when
 /// one disc lies inside the other, or behind the line: the two hold no arc.
 template <real T>
@@ -86,17 +105,13 @@ template <real T>
   g.inner = left_of(unit);
   g.span = d;
   g.width = (d - large) - small;
-  const T sum = small + large;
-  const T m = (g.width + T(2) * small) * (g.width + T(2) * large) * per_d * per_d;  // 1 − ((R − R')/d)²
+  const T m = set_discs(g, small, large, d, per_d, wet);
   g.x0 = small + T(0.5) * g.width * (g.width + T(2) * large) * per_d;
   g.x1 = wet.cosine * (small - large) * per_d;
-  g.a = wet.sine * wet.sine + wet.cosine * wet.cosine * m;
-  g.b = T(0.5) * wet.cosine * sum * m;
-  g.q = T(0.25) * g.width * m * (d + sum);
   g.leave0 = g.base_first ? g.x0 : d - g.x0;
   g.enter0 = g.base_first ? g.x0 - d : -g.x0;
   g.along1 = sign * g.x1;
-  if (g.width * (d + sum) + T(4) * wet.cosine * wet.cosine * small * large <= T(0)) {
+  if (g.width * (d + (small + large)) + T(4) * wet.cosine * wet.cosine * small * large <= T(0)) {
     g.end = gap_end::corner;
   }
   return m > T(0);
@@ -114,9 +129,7 @@ template <real T>
   g.width = h - disc.radius;
   g.x0 = h;
   g.x1 = -wet.cosine;
-  g.a = wet.sine * wet.sine;
-  g.b = wet.cosine * (disc.radius + h);
-  g.q = g.width * (h + disc.radius);
+  set_disc_and_line(g, disc.radius, h, wet);
   if (g.width + T(2) * wet.cosine * wet.cosine * disc.radius <= T(0)) {
     g.end = gap_end::corner;
   }

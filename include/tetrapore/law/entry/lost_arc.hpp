@@ -36,6 +36,12 @@ struct lost_arc {
   [[nodiscard]] outcome<arc_limit<T>, entry_status> first_arc_lost(const opening<T>& o) const noexcept {
     return law.first_arc_lost(o);
   }
+
+  template <real T>
+    requires gap_aware_entry_law<Law, T>
+  [[nodiscard]] outcome<T, entry_status> arc_lost(const edge<T>& e) const noexcept {
+    return law.arc_lost(e);
+  }
 };
 template <class Law>
 lost_arc(Law) -> lost_arc<Law>;

@@ -323,6 +323,30 @@ struct mayer_stowe_princen {
     return {{least > T(0) ? T(tension<T>()) / least : T(infinity<T>), widest}, entry_status::ok};
   }
 
+  /// Pressure at which the gap of an edge loses its arc: σ/r with ρ₁ + ρ₂ equal to the distance of the centres, at θ = 0
+  /// twice σ over the gap. Infinite where the grains touch: that arc is never lost.
+  template <real T>
+  [[nodiscard]] outcome<T, entry_status> arc_lost(const edge<T>& e) const noexcept {
+    const T zero(0);
+    if (!(detail::wets(surface_tension, contact_angle) && zero < e.radius1 &&
+          (e.radius1 < infinity<T>)&&zero < e.radius2 && e.gap > -e.radius1 && e.gap > -e.radius2 &&
+          (e.gap < infinity<T>))) {
+      return {T(quiet_nan<T>), entry_status::invalid_input};
+    }
+    detail::gap_frame<T> g;
+    g.width = e.gap;
+    if (e.with_plane()) {
+      detail::set_disc_and_line(g, e.radius1, e.radius1 + e.gap, contact_of<T>());
+    } else {
+      const T small = e.radius1 < e.radius2 ? e.radius1 : e.radius2;
+      const T large = e.radius1 < e.radius2 ? e.radius2 : e.radius1;
+      const T d = (small + e.gap) + large;
+      static_cast<void>(detail::set_discs(g, small, large, d, T(1) / d, contact_of<T>()));
+    }
+    const T r = g.least_radius();
+    return {r > zero ? T(tension<T>()) / r : T(infinity<T>), entry_status::lost_arc};
+  }
+
   /// The meniscus at entry in full.
   template <std::floating_point T>
   [[nodiscard]] outcome<entry_meniscus<T>, entry_status> meniscus(const opening<T>& o) const noexcept;
