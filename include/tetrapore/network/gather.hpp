@@ -2,8 +2,11 @@
 #pragma once
 
 #include "tetrapore/network/network.hpp"
+#include "tetrapore/simplex/edge.hpp"
 #include "tetrapore/simplex/pore_body.hpp"
 #include "tetrapore/simplex/throat.hpp"
+
+#include <utility>
 
 /// \file
 /// Simplices gathered from a network: what a law sees, with nothing of the network in it.
@@ -25,6 +28,27 @@ namespace tetrapore::inline TETRAPORE_ABI {
   }
   body.grain_count = static_cast<std::uint8_t>(grains);
   return body;
+}
+
+/// The edge between vertices a and b of pore p, of which one may be a wall: the grain of the lower id first, so that an edge
+/// is the same to the last bit from whichever pore it is seen.
+[[nodiscard]] inline edge<double> edge_at(const network& net, pore_id p, std::size_t a, std::size_t b) noexcept {
+  vertex first = net.vertices(p)[a];
+  vertex second = net.vertices(p)[b];
+  TETRAPORE_EXPECTS(!first.is_wall() || !second.is_wall(), "an edge has at least one grain");
+  if (first.is_wall() || (!second.is_wall() && second < first)) {
+    std::swap(first, second);
+    std::swap(a, b);
+  }
+  const sphere<double>& s = net.grains()[first.grain().index()];
+  if (second.is_wall()) {
+    const plane<double> w = net.region().wall(second.wall());
+    return {s.radius, infinity<double>, w.distance(s.centre) - s.radius, -w.normal};
+  }
+  const sphere<double>& t = net.grains()[second.grain().index()];
+  const vec3<double> step = (t.centre - s.centre) + net.region().shift(net.image_of(p, b) - net.image_of(p, a));
+  const double distance = norm(step);
+  return {s.radius, t.radius, (distance - s.radius) - t.radius, step / distance};
 }
 
 /// The vertices of a throat as slots of a pore that it bounds: outward order, grains first, then walls.

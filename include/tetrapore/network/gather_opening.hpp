@@ -121,6 +121,15 @@ class gathered_ring {
   }
 
   [[nodiscard]] const opening<double>& ring() const noexcept { return ring_; }
+  /// The edge in gap k; empty where two walls meet.
+  [[nodiscard]] std::optional<edge<double>> edge_in_gap(const network& net, std::size_t k) const noexcept {
+    const named_gap& g = gaps_[k];
+    const auto& v = net.vertices(g.pore);
+    if (v[g.first].is_wall() && v[g.second].is_wall()) {
+      return std::nullopt;
+    }
+    return edge_at(net, g.pore, g.first, g.second);
+  }
   /// The facets looked at so far: those of the ring, and last the one that could not be joined.
   [[nodiscard]] std::span<const throat_id> facets() const noexcept { return {facets_.data(), facet_count_}; }
 

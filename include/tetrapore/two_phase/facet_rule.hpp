@@ -2,7 +2,7 @@
 #pragma once
 
 #include "tetrapore/core/evaluate.hpp"
-#include "tetrapore/law/entry/lost_arc.hpp"
+#include "tetrapore/law/entry/concept.hpp"
 #include "tetrapore/network/gather_opening.hpp"
 #include "tetrapore/two_phase/entry_rule.hpp"
 
@@ -69,8 +69,8 @@ class facet_rule {
   template <executor E = serial>
   facet_rule(const network& net, const Law& law, const E& cores = {}) : law_(law), answers_(net.throat_count()) {
     totals_ = evaluate(
-        cores, net.throat_count(), [&](const opening<double>& o) noexcept { return asked(o); },
-        [&](std::size_t t) { return opening_at(net, throat_id(t)); },
+        cores, net.throat_count(), [&](throat_id t) noexcept { return asked(net, t); },
+        [](std::size_t t) { return throat_id(t); },
         [&](std::size_t t, const outcome<double, entry_status>& answer) { answers_[t] = answer; });
     for (const auto& answer : answers_) {
       facets_.add(answer.reason);
@@ -178,12 +178,34 @@ class facet_rule {
     std::uint32_t older;
   };
 
-  [[nodiscard]] outcome<double, entry_status> asked(const opening<double>& o) const noexcept {
-    if constexpr (Model == gap_model::lost_arc) {
-      return lost_arc<Law>{law_}.entry_pressure(o);
-    } else {
-      return law_.entry_pressure(o);
+  /// The gap of a ring that loses its arc first. All facets around an edge read the same pressure off it, to the last bit:
+  /// they form one level, whatever the unit of length.
+  [[nodiscard]] arc_limit<double> weakest_gap(const network& net, const gathered_ring& ring) const noexcept {
+    arc_limit<double> weakest{infinity<double>, 0};
+    for (std::size_t k = 0; k < ring.ring().count; ++k) {
+      if (const auto e = ring.edge_in_gap(net, k)) {
+        if (const auto lost = law_.arc_lost(*e); lost.ok() && lost.value < weakest.pressure) {
+          weakest = {lost.value, k};
+        }
+      }
     }
+    return weakest;
+  }
+
+  [[nodiscard]] arc_limit<double> weakest_gap(const network& net, throat_id t) const noexcept {
+    return weakest_gap(net, gathered_ring(net, net.pores(t)[0], net.slot(t, 0)));
+  }
+
+  [[nodiscard]] outcome<double, entry_status> asked(const network& net, throat_id t) const noexcept {
+    const auto answer = law_.entry_pressure(opening_at(net, t));
+    if constexpr (Model == gap_model::lost_arc) {
+      if (gives_way(answer.reason)) {
+        if (const double lost = weakest_gap(net, t).pressure; lost < infinity<double>) {
+          return {lost, entry_status::lost_arc};
+        }
+      }
+    }
+    return answer;
   }
 
   [[nodiscard]] static constexpr bool gives_way(entry_status s) noexcept {
@@ -195,8 +217,7 @@ class facet_rule {
     if (!gives_way(alone.reason)) {
       return alone.ok() ? alone.value : infinity<double>;
     }
-    const auto limit = law_.first_arc_lost(opening_at(net, t));
-    return limit.ok() ? limit.value.pressure : infinity<double>;
+    return weakest_gap(net, t).pressure;
   }
 
   [[nodiscard]] threshold_outcome merged_threshold(const network& net, const two_phase_state& state, throat_id t) {
@@ -206,14 +227,13 @@ class facet_rule {
     ++askings_[t.index()];
     double lost = bounds_[t.index()];
     for (;;) {
-      const auto limit = law_.first_arc_lost(ring.ring());
-      if (!limit.ok() || !(limit.value.pressure < infinity<double>) || !(lost < infinity<double>)) {
+      const arc_limit<double> limit = weakest_gap(net, ring);
+      if (!(limit.pressure < infinity<double>)) {
         return booked(t, lost, {ending::no_ring});
       }
-      // The first one is the bound, whichever side the facet is seen from.
-      lost = ring.facets().size() > 1 && limit.value.pressure > lost ? limit.value.pressure : lost;
+      lost = limit.pressure > lost ? limit.pressure : lost;
       const std::size_t before = ring.facets().size();
-      const auto grown = ring.grow(net, limit.value.gap, is_gas);
+      const auto grown = ring.grow(net, limit.gap, is_gas);
       if (ring.facets().size() > before) {
         take_note(t, ring.facets().back());
       }

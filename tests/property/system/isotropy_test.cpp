@@ -40,7 +40,8 @@ double half_drained(const network& net, face inlet) {
 
 }  // namespace
 
-TEST_CASE("drainage has no preferred direction: six directions spread by less than two standard deviations of six seeds") {
+TEST_CASE(
+    "drainage has no preferred direction: six directions spread by less than two standard deviations of six seeds") {
   std::array<double, count> over_seeds{};
   std::array<double, count> over_directions{};
   for (std::size_t i = 0; i < count; ++i) {
@@ -62,6 +63,6 @@ TEST_CASE("drainage has no preferred direction: six directions spread by less th
   }
   const auto [least, most] = std::minmax_element(over_directions.begin(), over_directions.end());
   MESSAGE("p_c at S = 0.5: directions spread by " << *most - *least << ", seeds deviate by " << std::sqrt(variance)
-                                                 << ", mean " << mean);
+                                                  << ", mean " << mean);
   CHECK(*most - *least <= 2 * std::sqrt(variance));
 }
