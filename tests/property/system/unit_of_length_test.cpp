@@ -7,6 +7,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -55,8 +56,11 @@ TEST_CASE("facets around an edge whose gap gives way have one threshold, to the 
                   continue;
                 }
                 const edge<double> there = edge_at(net, other, k, m);
-                if (std::abs(there.gap - here.gap) < 1e-12 && there.radius1 == here.radius1 &&
-                    there.radius2 == here.radius2 && std::abs(there.gap) > 1e-9) {
+                const auto pair_of = [&](pore_id p0, std::size_t x, std::size_t y) {
+                  return std::minmax(net.vertices(p0)[x], net.vertices(p0)[y]);
+                };
+                const vec3<double> turn = there.normal - here.normal;  // zero for the same image of the pair
+                if (pair_of(q, a, b) == pair_of(other, k, m) && norm2(turn) < 1e-18) {
                   CHECK(there.gap == here.gap);
                   ++compared;
                 }
