@@ -26,9 +26,7 @@ struct input {
   sphere<double> intruder;
 };
 
-sphere<long double> widen(const sphere<double>& s) {
-  return {{s.centre.x, s.centre.y, s.centre.z}, s.radius};
-}
+sphere<long double> widen(const sphere<double>& s) { return {{s.centre.x, s.centre.y, s.centre.z}, s.radius}; }
 
 pore_body<long double> widen(const pore_body<double>& b) {
   pore_body<long double> wide{};
@@ -71,8 +69,7 @@ std::vector<input> pores(double flatness) {
     input one{};
     one.body.grain_count = 4;
     one.body.grains = {sphere<double>{at, r[0]}, sphere<double>{at + u * a, r[1]},
-                       sphere<double>{at + u * x2 + v * y2, r[2]},
-                       sphere<double>{at + u * x3 + v * y3 + w * z3, r[3]}};
+                       sphere<double>{at + u * x2 + v * y2, r[2]}, sphere<double>{at + u * x3 + v * y3 + w * z3, r[3]}};
     // a grain behind the first facet that reaches into the cell
     const auto& g = one.body.grains;
     const auto area = triangle_area(g[1].centre, g[2].centre, g[3].centre);

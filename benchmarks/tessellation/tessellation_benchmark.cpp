@@ -62,8 +62,9 @@ void cgal_alone(benchmark::State& state) {
     t.insert(sites.begin(), sites.end());
     cells = t.number_of_finite_cells();
   }
-  state.counters["per_grain"] = benchmark::Counter(static_cast<double>(p.grains.size()),
-                                                   benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["per_grain"] =
+      benchmark::Counter(static_cast<double>(p.grains.size()),
+                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
   state.counters["cells"] = static_cast<double>(cells);
   state.counters["error"] = 0;
   state.counters["failed"] = 0;
@@ -83,10 +84,12 @@ void spheres_to_network(benchmark::State& state) {
     net = cgal_triangulation{}(p.grains, region).net;
   }
   const double box = compensated_sum(net.arrays().volumes);
-  state.counters["per_grain"] = benchmark::Counter(static_cast<double>(p.grains.size()),
-                                                   benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["per_grain"] =
+      benchmark::Counter(static_cast<double>(p.grains.size()),
+                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
   state.counters["cells"] = static_cast<double>(net.pore_count());
-  state.counters["bytes_per_pore"] = static_cast<double>(bytes_of(net.arrays())) / static_cast<double>(net.pore_count());
+  state.counters["bytes_per_pore"] =
+      static_cast<double>(bytes_of(net.arrays())) / static_cast<double>(net.pore_count());
   state.counters["error"] = std::abs(compensated_sum(net.arrays().void_volumes) + solid_volume(net) - box) / box;
   state.counters["failed"] = 0;
 }

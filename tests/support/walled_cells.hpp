@@ -120,7 +120,7 @@ inline bool draw(random_engine& random, const pore_body<double>& b, vec3<double>
     sum += weight[k];
   }
   p = {};
-  std::array<double, 3> depth{};    // mean distance from each wall
+  std::array<double, 3> depth{};  // mean distance from each wall
   std::array<double, 3> deepest{};
   for (std::size_t k = 0; k < n; ++k) {
     p += b.grains[k].centre * (weight[k] / sum);

@@ -98,9 +98,7 @@ template <real T>
     const vec3<T> edge = b - a;
     const T along = -dot(a, edge);
     const T length2 = norm2(edge);
-    const T distance2 = along <= T(0)         ? norm2(a)
-                        : along >= length2    ? norm2(b)
-                                              : norm2(cross(a, edge)) / length2;
+    const T distance2 = along <= T(0) ? norm2(a) : along >= length2 ? norm2(b) : norm2(cross(a, edge)) / length2;
     if (distance2 < r2) {
       return true;
     }

@@ -52,8 +52,8 @@ namespace detail {
 /// An edge of a face in the plane of the face, seen from the foot of the ball's centre.
 template <real T>
 struct edge_from_foot {
-  T distance;    ///< of its line, positive when the edge runs counter-clockwise about the foot
-  T begin, end;  ///< positions along the line, counted from the point nearest to the foot
+  T distance;                ///< of its line, positive when the edge runs counter-clockwise about the foot
+  T begin, end;              ///< positions along the line, counted from the point nearest to the foot
   T begin_range, end_range;  ///< distances of its ends from the centre
 };
 
@@ -343,8 +343,7 @@ template <real T>
   for (const face f : all_faces) {
     if (region.is_wall(f)) {
       const plane<double> w = region.wall(f);
-      const plane<T> wall{{T(w.point.x), T(w.point.y), T(w.point.z)},
-                          {T(w.normal.x), T(w.normal.y), T(w.normal.z)}};
+      const plane<T> wall{{T(w.point.x), T(w.point.y), T(w.point.z)}, {T(w.normal.x), T(w.normal.y), T(w.normal.z)}};
       const T height = wall.distance(ball.centre);
       if (!(height >= ball.radius)) {
         cutting[count++] = {wall.normal * -height, wall.normal};  // in the frame of the centre

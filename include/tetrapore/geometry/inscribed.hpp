@@ -170,11 +170,11 @@ template <class Vector, class T, class Answer>
 /// The circle that touches three sides from the fluid.
 /// \par Units  [m]
 /// \par Domain  any mix of discs and wall lines, not collinear; overlapping discs give a radius that is not positive
-/// \par Accuracy  relative 64 ε / (radius of the smallest disc, in units of the largest distance), where the triangle is
-///                not a sliver; worst on open_msp.csv 9.1e-14 (a throat nearly
+/// \par Accuracy  relative 64 ε / (radius of the smallest disc, in units of the largest distance), where the triangle
+///                is not a sliver; worst on open_msp.csv 9.1e-14 (a throat nearly
 ///                closed), 1e-15 as a rule
-/// \par Source  problem of Apollonius: differences of the three tangency conditions are linear in the centre; the radius
-///              is a root of a quadratic. Chareyre et al. 2017, §2.3
+/// \par Source  problem of Apollonius: differences of the three tangency conditions are linear in the centre; the
+///              radius is a root of a quadratic. Chareyre et al. 2017, §2.3
 template <real T>
 [[nodiscard]] outcome<circle<T>, inscribed_status> circle_between(
     const std::array<bounding_side2<T>, 3>& sides) noexcept {

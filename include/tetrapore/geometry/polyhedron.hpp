@@ -151,8 +151,7 @@ class polyhedron {
       }
       const auto v = static_cast<std::uint8_t>(vertex_count_);
       const vec3<T>& p = whole.vertices_[in];
-      vertices_[vertex_count_++] =
-          p + (whole.vertices_[out] - p) * (distance[in] / (distance[in] - distance[out]));
+      vertices_[vertex_count_++] = p + (whole.vertices_[out] - p) * (distance[in] / (distance[in] - distance[out]));
       cuts[cut_count++] = {in, out, v};
       return v;
     };

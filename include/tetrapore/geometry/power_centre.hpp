@@ -55,8 +55,9 @@ template <real T>
   }
   const T nan(quiet_nan<T>);
   const T size = determinant + noise2;
-  return {{nan, nan, nan}, size - size == T(0) && determinant * determinant <= noise2 ? geometry_status::flat
-                                                                                     : geometry_status::not_finite};
+  return {
+      {nan, nan, nan},
+      size - size == T(0) && determinant * determinant <= noise2 ? geometry_status::flat : geometry_status::not_finite};
 }
 
 }  // namespace detail
@@ -66,22 +67,22 @@ template <real T>
 /// \par Domain  centres that are not coplanar to rounding, else the status is flat
 /// \par Accuracy  a few epsilon times the product of the edges at the first centre over the determinant
 template <real T>
-[[nodiscard]] outcome<vec3<T>, geometry_status> power_centre(const sphere<T>& a, const sphere<T>& b,
-                                                             const sphere<T>& c, const sphere<T>& d) noexcept {
+[[nodiscard]] outcome<vec3<T>, geometry_status> power_centre(const sphere<T>& a, const sphere<T>& b, const sphere<T>& c,
+                                                             const sphere<T>& d) noexcept {
   return detail::meet(a, detail::radical(a, b), detail::radical(a, c), detail::radical(a, d));
 }
 
 /// The point of a plane of equal power to three spheres. \par Units  [m]
 template <real T>
-[[nodiscard]] outcome<vec3<T>, geometry_status> power_centre(const sphere<T>& a, const sphere<T>& b,
-                                                             const sphere<T>& c, const plane<T>& w) noexcept {
+[[nodiscard]] outcome<vec3<T>, geometry_status> power_centre(const sphere<T>& a, const sphere<T>& b, const sphere<T>& c,
+                                                             const plane<T>& w) noexcept {
   return detail::meet(a, detail::radical(a, b), detail::radical(a, c), detail::on_plane(a, w));
 }
 
 /// The point of the edge of two planes of equal power to two spheres. \par Units  [m]
 template <real T>
-[[nodiscard]] outcome<vec3<T>, geometry_status> power_centre(const sphere<T>& a, const sphere<T>& b,
-                                                             const plane<T>& v, const plane<T>& w) noexcept {
+[[nodiscard]] outcome<vec3<T>, geometry_status> power_centre(const sphere<T>& a, const sphere<T>& b, const plane<T>& v,
+                                                             const plane<T>& w) noexcept {
   return detail::meet(a, detail::radical(a, b), detail::on_plane(a, v), detail::on_plane(a, w));
 }
 

@@ -35,8 +35,12 @@ struct vec2 {
   T x{};
   T y{};
 
-  [[nodiscard]] friend constexpr vec2 operator+(const vec2& a, const vec2& b) noexcept { return {a.x + b.x, a.y + b.y}; }
-  [[nodiscard]] friend constexpr vec2 operator-(const vec2& a, const vec2& b) noexcept { return {a.x - b.x, a.y - b.y}; }
+  [[nodiscard]] friend constexpr vec2 operator+(const vec2& a, const vec2& b) noexcept {
+    return {a.x + b.x, a.y + b.y};
+  }
+  [[nodiscard]] friend constexpr vec2 operator-(const vec2& a, const vec2& b) noexcept {
+    return {a.x - b.x, a.y - b.y};
+  }
   [[nodiscard]] friend constexpr vec2 operator-(const vec2& a) noexcept { return {-a.x, -a.y}; }
   [[nodiscard]] friend constexpr vec2 operator*(const vec2& a, const T& s) noexcept { return {a.x * s, a.y * s}; }
   [[nodiscard]] friend constexpr vec2 operator*(const T& s, const vec2& a) noexcept { return a * s; }

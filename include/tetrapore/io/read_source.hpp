@@ -26,7 +26,7 @@
 namespace tetrapore::inline TETRAPORE_ABI {
 namespace io {
 
-/// Text from a file as it may stand in a message: shortened, and bytes that do not print written as \xNN.
+/// Text from a file as it may stand in a message: shortened, and bytes that do not print written in hexadecimal.
 [[nodiscard]] inline std::string shown(std::string_view text) {
   constexpr std::size_t longest = 40;
   constexpr const char* digits = "0123456789abcdef";

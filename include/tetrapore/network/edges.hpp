@@ -63,7 +63,8 @@ struct edge_cursor {
   return next;
 }
 
-/// Two neighbouring vertices: the second at an image relative to the first. Grains before walls, the smaller grain first.
+/// Two neighbouring vertices: the second at an image relative to the first. Grains before walls, the smaller grain
+/// first.
 struct vertex_pair {
   vertex first;
   vertex second;

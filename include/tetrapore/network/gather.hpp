@@ -30,8 +30,8 @@ namespace tetrapore::inline TETRAPORE_ABI {
   return body;
 }
 
-/// The edge between vertices a and b of pore p, of which one may be a wall: the grain of the lower id first, so that an edge
-/// is the same to the last bit from whichever pore it is seen.
+/// The edge between vertices a and b of pore p, of which one may be a wall: the grain of the lower id first, so that an
+/// edge is the same to the last bit from whichever pore it is seen.
 [[nodiscard]] inline edge<double> edge_at(const network& net, pore_id p, std::size_t a, std::size_t b) noexcept {
   vertex first = net.vertices(p)[a];
   vertex second = net.vertices(p)[b];

@@ -10,8 +10,8 @@
 #include <vector>
 
 /// \file
-/// Volume of the grains inside the region of a network, grain by grain: nothing is shared with the volumes of the pores,
-/// so that the two can be held against the volume of the region.
+/// Volume of the grains inside the region of a network, grain by grain: nothing is shared with the volumes of the
+/// pores, so that the two can be held against the volume of the region.
 
 namespace tetrapore::inline TETRAPORE_ABI {
 
@@ -41,8 +41,8 @@ namespace detail {
 
 }  // namespace detail
 
-/// Volume of the union of the grains inside the region [m³]: inside the walls, on a periodic axis once, on an open side up
-/// to the hull of the centres. Each grain counts inside its own power cell.
+/// Volume of the union of the grains inside the region [m³]: inside the walls, on a periodic axis once, on an open side
+/// up to the hull of the centres. Each grain counts inside its own power cell.
 /// \par Accuracy  a few 1e-15 of the sum
 /// \throw packing_error  naming the grain, where more planes cut it than the kernel holds
 [[nodiscard]] inline double solid_volume(const network& net) {

@@ -19,8 +19,8 @@
 
 namespace tetrapore::inline TETRAPORE_ABI {
 
-/// Shares of the pores of one epoch in the pores of the next: the void volume that an old and a new cell have in common,
-/// both at the same place of the grains.
+/// Shares of the pores of one epoch in the pores of the next: the void volume that an old and a new cell have in
+/// common, both at the same place of the grains.
 class transfer {
  public:
   struct share {
@@ -295,8 +295,8 @@ struct changed_cells {
   return row;
 }
 
-/// A new cell that no old one has void in common with (flat, or filled by grains) takes nothing over, but reads its level
-/// where a neighbour does.
+/// A new cell that no old one has void in common with (flat, or filled by grains) takes nothing over, but reads its
+/// level where a neighbour does.
 inline void give_each_a_share(const network& after, std::vector<std::vector<transfer::share>>& rows) {
   constexpr std::size_t none = static_cast<std::size_t>(-1);
   std::vector<std::size_t> giver(after.pore_count(), none);

@@ -77,8 +77,8 @@ template <real T>
 /// Three discs of given radii and distances of their centres.
 /// \par Units  [m]
 /// \par Domain  the distances form a triangle; one that misses by round-off (8 ε of the perimeter) is collinear
-/// \par Accuracy  the third centre is found from factored differences (Heron's formula as Kahan writes it), in the frame
-///                of the smallest disc: nothing is lost beyond the rounding of the distances
+/// \par Accuracy  the third centre is found from factored differences (Heron's formula as Kahan writes it), in the
+///                frame of the smallest disc: nothing is lost beyond the rounding of the distances
 /// \par Source  W. Kahan, Miscalculating area and angles of a needle-like triangle (2014)
 template <real T>
 [[nodiscard]] outcome<opening<T>, opening_status> opening_from_distances(const T& R1, const T& R2, const T& R3,

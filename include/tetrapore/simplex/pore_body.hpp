@@ -16,8 +16,8 @@ namespace tetrapore::inline TETRAPORE_ABI {
 ///   3 grains + 1 wall the prism between the triangle of the centres and its projection on the wall;
 ///   2 grains + 2 walls the wedge between the segment of the centres and its projections on both walls and their edge;
 ///   1 grain + 3 walls the cuboid between the centre and the corner.
-/// The order of the vertices is positive: for four grains triple(c1-c0, c2-c0, c3-c0) >= 0; a wall counts as a vertex at
-/// infinity in the direction against its normal.
+/// The order of the vertices is positive: for four grains triple(c1-c0, c2-c0, c3-c0) >= 0; a wall counts as a vertex
+/// at infinity in the direction against its normal.
 /// \par Units  [m]
 template <real T>
 struct pore_body {

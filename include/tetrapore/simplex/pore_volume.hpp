@@ -46,13 +46,12 @@ struct cell_shape<3> {
 template <>
 struct cell_shape<2> {
   static constexpr std::size_t corner_count = 8;
-  static constexpr std::array<cell_face, 6> faces{
-      {{4, {1, 3, 7, 5}},
-       {4, {0, 4, 6, 2}},
-       {4, {0, 1, 5, 4}},
-       {4, {1, 0, 2, 3}},
-       {4, {3, 2, 6, 7}},
-       {4, {4, 5, 7, 6}}}};
+  static constexpr std::array<cell_face, 6> faces{{{4, {1, 3, 7, 5}},
+                                                   {4, {0, 4, 6, 2}},
+                                                   {4, {0, 1, 5, 4}},
+                                                   {4, {1, 0, 2, 3}},
+                                                   {4, {3, 2, 6, 7}},
+                                                   {4, {4, 5, 7, 6}}}};
 };
 template <>
 struct cell_shape<1> {
@@ -75,8 +74,18 @@ struct tetrahedron_edges {
   T determinant;
 
   tetrahedron_edges(const vec3<T>& c0, const vec3<T>& c1, const vec3<T>& c2, const vec3<T>& c3) noexcept
-      : d1(c1 - c0), d2(c2 - c0), d3(c3 - c0), d12(c2 - c1), d13(c3 - c1), d23(c3 - c2),
-        q1(norm2(d1)), q2(norm2(d2)), q3(norm2(d3)), q12(norm2(d12)), q13(norm2(d13)), q23(norm2(d23)),
+      : d1(c1 - c0),
+        d2(c2 - c0),
+        d3(c3 - c0),
+        d12(c2 - c1),
+        d13(c3 - c1),
+        d23(c3 - c2),
+        q1(norm2(d1)),
+        q2(norm2(d2)),
+        q3(norm2(d3)),
+        q12(norm2(d12)),
+        q13(norm2(d13)),
+        q23(norm2(d23)),
         determinant(triple(d1, d2, d3)) {
     const T at0 = q1 * q2 * q3;
     const T at1 = q1 * q12 * q13;
@@ -84,9 +93,7 @@ struct tetrahedron_edges {
     const T at3 = q3 * q13 * q23;
     const T least = smaller(smaller(at1, at2), at3);
     if (at0 > T(64) * least) {
-      determinant = at1 <= least   ? triple(d1, d12, d13)
-                    : at2 <= least ? triple(d2, d12, d23)
-                                   : triple(d3, d13, d23);
+      determinant = at1 <= least ? triple(d1, d12, d13) : at2 <= least ? triple(d2, d12, d23) : triple(d3, d13, d23);
     }
   }
 };
@@ -261,8 +268,8 @@ struct tetrahedron_frame : tetrahedron_edges<T> {
 
   using edges = tetrahedron_edges<T>;
   using edges::d1, edges::d2, edges::d3, edges::d12, edges::d13, edges::d23;
-  using edges::q1, edges::q2, edges::q3, edges::q12, edges::q13, edges::q23;
   using edges::determinant;
+  using edges::q1, edges::q2, edges::q3, edges::q12, edges::q13, edges::q23;
 
   explicit tetrahedron_frame(const pore_body<T>& b) noexcept
       : edges(b.grains[0].centre, b.grains[1].centre, b.grains[2].centre, b.grains[3].centre),
@@ -292,8 +299,8 @@ struct tetrahedron_frame : tetrahedron_edges<T> {
     const T v2 = determinant * determinant;
     const auto clear = [&v2](const T& r, const vec3<T>& n) noexcept { return v2 >= r * r * norm2(n); };
     const bool solid = determinant > T(0) && v2 > q1 * q2 * q3 * T(static_cast<underlying_t<T>>(needle2));
-    return solid && clear(radius[0], n0) && clear(radius[1], n1) && clear(radius[2], n2) &&
-           clear(radius[3], n3) && !overlaps(q1, radius[0], radius[1]) && !overlaps(q2, radius[0], radius[2]) &&
+    return solid && clear(radius[0], n0) && clear(radius[1], n1) && clear(radius[2], n2) && clear(radius[3], n3) &&
+           !overlaps(q1, radius[0], radius[1]) && !overlaps(q2, radius[0], radius[2]) &&
            !overlaps(q3, radius[0], radius[3]) && !overlaps(q12, radius[1], radius[2]) &&
            !overlaps(q13, radius[1], radius[3]) && !overlaps(q23, radius[2], radius[3]);
   }

@@ -46,8 +46,8 @@ using cgal_structure = CGAL::Triangulation_data_structure_3<cgal_vertex_base, cg
 using cgal_regular = CGAL::Regular_triangulation_3<cgal_kernel, cgal_structure>;
 
 /// The coordinates in which the topology is decided. Without periodic axes they are the caller's, moved near the origin
-/// without rounding. With periodic axes they are integers, multiples of a quantum of 2^-40 of the longest side: shifts by
-/// a box length are then exact, so that all periodic images of a cospherical set are triangulated alike.
+/// without rounding. With periodic axes they are integers, multiples of a quantum of 2^-40 of the longest side: shifts
+/// by a box length are then exact, so that all periodic images of a cospherical set are triangulated alike.
 struct topology_frame {
   bool rounded = false;
   vec3<double> origin;

@@ -178,8 +178,8 @@ class facet_rule {
     std::uint32_t older;
   };
 
-  /// The gap of a ring that loses its arc first. All facets around an edge read the same pressure off it, to the last bit:
-  /// they form one level, whatever the unit of length.
+  /// The gap of a ring that loses its arc first. All facets around an edge read the same pressure off it, to the last
+  /// bit: they form one level, whatever the unit of length.
   [[nodiscard]] arc_limit<double> weakest_gap(const network& net, const gathered_ring& ring) const noexcept {
     arc_limit<double> weakest{infinity<double>, 0};
     for (std::size_t k = 0; k < ring.ring().count; ++k) {

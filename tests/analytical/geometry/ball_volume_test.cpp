@@ -48,7 +48,7 @@ TEST_CASE("a ball centred inside, on a face, an edge and a corner of a cube fill
   CHECK(std::fabs(ball_volume(sphere<double>{{2, 0, 0}, 1}, box) - ball_of_one / 2) < 1e-15);
   CHECK(std::fabs(ball_volume(sphere<double>{{2, -2, 0}, 1}, box) - ball_of_one / 4) < 1e-15);
   CHECK(std::fabs(ball_volume(sphere<double>{{2, -2, 2}, 1}, box) - ball_of_one / 8) < 1e-15);
-  CHECK(std::fabs(ball_volume(sphere<double>{{3, 0, 0}, 1}, box)) < 1e-15);   // tangent from outside
+  CHECK(std::fabs(ball_volume(sphere<double>{{3, 0, 0}, 1}, box)) < 1e-15);                // tangent from outside
   CHECK(std::fabs(ball_volume(sphere<double>{{1, 0, 0}, 1}, box) - ball_of_one) < 1e-15);  // tangent from inside
   CHECK(std::fabs(ball_volume(sphere<double>{{9, 1, 0}, 1}, box)) < 1e-15);
   CHECK(std::fabs(ball_volume(sphere<double>{{0.1, 0.2, -0.3}, 5}, box) - 64) < 64e-15);  // the cube inside the ball
@@ -117,8 +117,8 @@ TEST_CASE("the union of two balls is their sum less the lens; of three the same 
 
 TEST_CASE("equal, concentric and engulfed balls count once") {
   const auto box = cube(-9, 9);
-  const std::vector<sphere<double>> balls{{{0, 0, 0}, 1}, {{0, 0, 0}, 1}, {{0, 0, 0}, 0.5},
-                                          {{0.2, 0, 0}, 0.3}, {{0.5, 0, 0}, 0.5}};
+  const std::vector<sphere<double>> balls{
+      {{0, 0, 0}, 1}, {{0, 0, 0}, 1}, {{0, 0, 0}, 0.5}, {{0.2, 0, 0}, 0.3}, {{0.5, 0, 0}, 0.5}};
   CHECK(std::fabs(union_volume<double>(box, balls).value - ball_of_one) < 4e-15);
 }
 

@@ -11,9 +11,7 @@ using namespace tetrapore_test;
 
 namespace {
 
-plane<double> random_plane(random_engine& random) {
-  return {uniform_point(random), random_rotation(random).u};
-}
+plane<double> random_plane(random_engine& random) { return {uniform_point(random), random_rotation(random).u}; }
 
 }  // namespace
 

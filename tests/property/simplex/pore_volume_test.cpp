@@ -253,9 +253,8 @@ TEST_CASE("a grain pokes exactly when a point of its ball lies on the opposite f
           for (int j = 0; j <= steps; ++j) {
             const double s = i / static_cast<double>(steps);
             const double t = j / static_cast<double>(steps);
-            const auto p = polygon.count == 4
-                               ? (c[0] * (1 - s) + c[1] * s) * (1 - t) + (c[3] * (1 - s) + c[2] * s) * t
-                               : c[0] * (1 - s) + (c[1] * (1 - t) + c[2] * t) * s;
+            const auto p = polygon.count == 4 ? (c[0] * (1 - s) + c[1] * s) * (1 - t) + (c[3] * (1 - s) + c[2] * s) * t
+                                              : c[0] * (1 - s) + (c[1] * (1 - t) + c[2] * t) * s;
             nearest = std::min(nearest, norm(p - b.grains[g].centre));
           }
         }

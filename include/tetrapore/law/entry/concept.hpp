@@ -60,8 +60,10 @@ enum class entry_status : unsigned char {
 /// Syntax: `l.entry_pressure(opening)`, const and noexcept, gives an outcome in [Pa].
 /// Semantics: proportional to surface tension / length; invariant under permutation of the sides and rigid motion;
 /// at zero contact angle never lower when a grain grows (at others a grain that grows can lower it: 1.8 % of random
-/// growths under mayer_stowe_princen did, by at most 3.3 %); pure: no state, safe in threads. A law that does not cover a shape refuses it.
+/// growths under mayer_stowe_princen did, by at most 3.3 %); pure: no state, safe in threads. A law that does not cover
+/// a shape refuses it.
 /// Models: inscribed_circle, mayer_stowe_princen, lost_arc; a user's own.
+/// \par Source  Chareyre et al. 2017, §2.3: the entry pressure of a throat
 template <class L, class T = double>
 concept entry_law = real<T> && std::copyable<L> && requires(const L l, const opening<T> o) {
   { l.entry_pressure(o) } noexcept -> std::same_as<outcome<T, entry_status>>;

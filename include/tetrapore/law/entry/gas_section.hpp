@@ -420,7 +420,8 @@ struct ring_frame {
     out.enter[k] = w_enter[k];
   }
 
-  /// The balance of three discs with an arc in every gap: what `section` says, without what the iteration leaves unread.
+  /// The balance of three discs with an arc in every gap: what `section` says, without what the iteration leaves
+  /// unread.
   [[nodiscard]] gas_balance<T> plain_balance(const T& r) const noexcept {
     using std::sqrt;
     const T lift = r * wet.cosine;

@@ -184,8 +184,8 @@ template <bool Plain, std::floating_point T, std::size_t N>
   return no_root<T>(entry_status::not_converged);
 }
 
-/// About the radius at entry, from that of the inscribed circle: fitted, within 1 % in most throats, where it only saves
-/// iterations.
+/// About the radius at entry, from that of the inscribed circle: fitted, within 1 % in most throats, where it only
+/// saves iterations.
 template <std::floating_point T>
 [[nodiscard]] T usual_radius(const contact<T>& wet, const T& inscribed, const T& least) noexcept {
   const T x = wet.angle * wet.angle;
@@ -276,13 +276,13 @@ template <std::floating_point T>
 /// Capillary pressure at which the non-wetting phase enters an opening, by the balance of Mayer, Stowe and Princen:
 /// the arc radius r = σ/p at which r (L_nw + cos θ L_ns) = A_nw.
 /// \par Units   lengths [m], surface tension [N/m], angle [rad], pressure [Pa]
-/// \par Domain  rings of 3 to 8 sides, discs and wall lines in any mix, gaps liquid or open; 0 ≤ θ < 90°. In the order of
-///              the tests: closed (the sides cover the opening), no_hole, gap_limited, ok or dry_corner. A side of a
+/// \par Domain  rings of 3 to 8 sides, discs and wall lines in any mix, gaps liquid or open; 0 ≤ θ < 90°. In the order
+///              of the tests: closed (the sides cover the opening), no_hole, gap_limited, ok or dry_corner. A side of a
 ///              larger ring that lies behind an arc is left out. Arcs between sides that are no neighbours are not
 ///              looked for: a merged ring enters at the larger of its pressure and that at which the shared arc is lost
-/// \par Accuracy  `stated_accuracy`, relative, for radii down to 1 : 1000 (2.6e-13 at worst in 2·10⁵ random throats against
-///                long double, 2.5e-14 in open_msp.csv, 2e-15 in most); radii 1 : 1 : 1e-5 cost 3e-11, the rounding of
-///                their distances; at the gap limit the status may differ within the rounding of the gap
+/// \par Accuracy  `stated_accuracy`, relative, for radii down to 1 : 1000 (2.6e-13 at worst in 2·10⁵ random throats
+///                against long double, 2.5e-14 in open_msp.csv, 2e-15 in most); radii 1 : 1 : 1e-5 cost 3e-11, the
+///                rounding of their distances; at the gap limit the status may differ within the rounding of the gap
 /// \par Source  Mayer & Stowe, J. Colloid Sci. 20, 893 (1965); Princen, J. Colloid Interface Sci. 30, 69 (1969);
 ///              Chareyre et al., EPJ Web Conf. 140, 09027 (2017), §2.3
 struct mayer_stowe_princen {
@@ -323,8 +323,8 @@ struct mayer_stowe_princen {
     return {{least > T(0) ? T(tension<T>()) / least : T(infinity<T>), widest}, entry_status::ok};
   }
 
-  /// Pressure at which the gap of an edge loses its arc: σ/r with ρ₁ + ρ₂ equal to the distance of the centres, at θ = 0
-  /// twice σ over the gap. Infinite where the grains touch: that arc is never lost.
+  /// Pressure at which the gap of an edge loses its arc: σ/r with ρ₁ + ρ₂ equal to the distance of the centres, at θ =
+  /// 0 twice σ over the gap. Infinite where the grains touch: that arc is never lost.
   template <real T>
   [[nodiscard]] outcome<T, entry_status> arc_lost(const edge<T>& e) const noexcept {
     const T zero(0);

@@ -11,7 +11,8 @@ namespace tetrapore::inline TETRAPORE_ABI {
 /// \par Domain  of the law inside, which must cover open gaps; a gap without width cannot be crossed
 /// \par Accuracy  of the law inside for the plane picture; beside three-dimensional menisci between equal spheres 6 %,
 ///                except 16 % low at θ = 60° and a gap of 0.2 R (tests/truth/se_results.csv)
-/// \par Source  minimum over the branches of Mayer & Stowe (arcs) and of Carman's ratio cos θ P_solid / A_void (all open)
+/// \par Source  minimum over the branches of Mayer & Stowe (arcs) and of Carman's ratio cos θ P_solid / A_void (all
+///              open)
 template <class Law>
 struct mirror_sided {
   Law law;
