@@ -3,47 +3,23 @@
 // From spheres to the measured network, beside what the bare library call allows: CGAL's range insertion of the same
 // spheres. The error of a row is |Σ void + solid - box| / box.
 
+#include "support/dense_packing.hpp"
 #include "tetrapore/network.hpp"
-#include "tetrapore/packing/random_packing.hpp"
-#include "tetrapore/packing/tile.hpp"
+#include "tetrapore/packing/packing.hpp"
 #include "tetrapore/tessellation/cgal.hpp"
 
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
 #include <map>
-#include <random>
 
 using namespace tetrapore;
 
 namespace {
 
-/// n dense grains in a box with walls: a periodic random packing of 1,000, repeated, in random order.
 const packing& dense(std::size_t n) {
   static std::map<std::size_t, packing> made;
-  if (const auto found = made.find(n); found != made.end()) {
-    return found->second;
-  }
-  std::vector<double> radii(1000);
-  std::mt19937_64 random(3);
-  for (double& r : radii) {
-    r = 0.7 + 0.6 * static_cast<double>(random() >> 11U) * 0x1p-53;
-  }
-  const packing cell = random_packing(radii, {.solid_fraction = 0.6, .periodic = {true, true, true}, .seed = 5});
-  std::array<std::size_t, 3> copies{1, 1, 1};
-  for (std::size_t k = 0, left = n / 1000; left > 1; ++k) {
-    const std::size_t factor = left % 2 == 0 ? 2 : (left % 5 == 0 ? 5 : left);
-    copies[k % 3] *= factor;
-    left /= factor;
-  }
-  packing p = tile(cell, copies);
-  double largest = 0;
-  for (const auto& g : p.grains) {
-    largest = std::max(largest, g.radius);
-  }
-  p.periodic = {};
-  std::shuffle(p.grains.begin(), p.grains.end(), random);
-  return made.emplace(n, std::move(p)).first->second;
+  const auto found = made.find(n);
+  return found != made.end() ? found->second : made.emplace(n, dense_packing(n)).first->second;
 }
 
 void cgal_alone(benchmark::State& state) {

@@ -4,9 +4,8 @@
 // invasion, by trapping method and model of the gap. `error` is the volume balance relative to the pore volume,
 // `failed` the throats whose threshold the law could not give (lost_arc and merged: after the model of the gap).
 
+#include "support/dense_packing.hpp"
 #include "tetrapore/law/entry/mayer_stowe_princen.hpp"
-#include "tetrapore/packing/random_packing.hpp"
-#include "tetrapore/packing/tile.hpp"
 #include "tetrapore/tessellation/cgal.hpp"
 #include "tetrapore/two_phase.hpp"
 
@@ -15,7 +14,6 @@
 #include <cmath>
 #include <map>
 #include <memory>
-#include <random>
 
 using namespace tetrapore;
 
@@ -24,25 +22,11 @@ namespace {
 using fixed_rule = facet_rule<mayer_stowe_princen, gap_model::lost_arc>;
 using merged_rule = facet_rule<mayer_stowe_princen, gap_model::merged>;
 
-/// n grains: a periodic random packing of 1,000, repeated.
 const network& dense(std::size_t n) {
   static std::map<std::size_t, std::unique_ptr<network>> made;
   auto& net = made[n];
   if (!net) {
-    std::vector<double> radii(1000);
-    std::mt19937_64 random(3);
-    for (double& r : radii) {
-      r = 0.7 + 0.6 * static_cast<double>(random() >> 11U) * 0x1p-53;
-    }
-    const packing cell = random_packing(radii, {.solid_fraction = 0.6, .periodic = {true, true, true}, .seed = 5});
-    std::array<std::size_t, 3> copies{1, 1, 1};
-    for (std::size_t k = 0, left = n / 1000; left > 1; ++k) {
-      const std::size_t factor = left % 2 == 0 ? 2 : (left % 5 == 0 ? 5 : left);
-      copies[k % 3] *= factor;
-      left /= factor;
-    }
-    packing p = tile(cell, copies);
-    p.periodic = {};
+    const packing p = dense_packing(n);
     net = std::make_unique<network>(tessellate(p.grains, domain_of(p), cgal_triangulation{}).net);
   }
   return *net;
