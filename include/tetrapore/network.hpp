@@ -9,6 +9,7 @@
 #include "tetrapore/network/edges.hpp"
 #include "tetrapore/network/field.hpp"
 #include "tetrapore/network/gather.hpp"
+#include "tetrapore/network/gather_opening.hpp"
 #include "tetrapore/network/make_network.hpp"
 #include "tetrapore/network/measure.hpp"
 #include "tetrapore/network/network.hpp"

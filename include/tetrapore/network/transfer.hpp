@@ -57,24 +57,30 @@ void carry(const transfer& way, field<Q>& f) {
   TETRAPORE_EXPECTS(f.epoch() == way.from_epoch() && f.size() == way.old_pore_count(),
                     "a field is carried from the epoch it belongs to");
   std::vector<double> values(way.new_pore_count(), 0.0);
-  std::vector<double> weights(Q == quantity::intensive ? way.new_pore_count() : 0, 0.0);
-  for (std::size_t i = 0; i < way.old_pore_count(); ++i) {
-    const pore_id old(i);
-    for (const auto& s : way.of(old)) {
-      if constexpr (Q == quantity::extensive) {
-        values[s.to.index()] += s.weight * f[old];
-      } else {
-        // A cell without void still has a say, smaller than any void's, so that no new pore is left without a value.
-        constexpr double least = 1e-200;  // [m³]
-        const double w = s.volume > 0.0 ? s.volume : least;
-        values[s.to.index()] += w * f[old];
-        weights[s.to.index()] += w;
+  const auto each_share = [&](const auto& take) {
+    for (std::size_t i = 0; i < way.old_pore_count(); ++i) {
+      for (const auto& s : way.of(pore_id(i))) {
+        take(s, f[pore_id(i)]);
       }
     }
-  }
-  if constexpr (Q == quantity::intensive) {
+  };
+  if constexpr (Q == quantity::extensive) {
+    each_share([&](const transfer::share& s, double value) { values[s.to.index()] += s.weight * value; });
+  } else {
+    std::vector<double> volume(way.new_pore_count(), 0.0);
+    std::vector<std::size_t> givers(way.new_pore_count(), 0);  // of cells that have no void in common with any old one
+    each_share([&](const transfer::share& s, double value) {
+      values[s.to.index()] += s.volume * value;
+      volume[s.to.index()] += s.volume;
+    });
+    each_share([&](const transfer::share& s, double value) {
+      if (!(volume[s.to.index()] > 0.0)) {
+        values[s.to.index()] += value;
+        ++givers[s.to.index()];
+      }
+    });
     for (std::size_t j = 0; j < values.size(); ++j) {
-      values[j] /= weights[j];
+      values[j] /= givers[j] > 0 ? static_cast<double>(givers[j]) : volume[j];
     }
   }
   f = field<Q>(std::move(values), way.to_epoch());
@@ -261,9 +267,10 @@ struct changed_cells {
       balls.clear();
       const auto add = [&](sphere<double> s, const vec3<double>& by) {
         s.centre += by;
+        // The same ball seen from both cells may differ by the rounding of the shifts that were added to it.
+        const double rounding = 8 * epsilon<double> * (std::sqrt(norm2(s.centre)) + norm(region.bounds.size()));
         for (const auto& known : balls) {
-          // The same ball seen from both cells may differ by the rounding of a shift.
-          if (known.radius == s.radius && norm2(known.centre - s.centre) <= 1e-24 * s.radius * s.radius) {
+          if (known.radius == s.radius && norm2(known.centre - s.centre) <= rounding * rounding) {
             return;
           }
         }
