@@ -39,7 +39,7 @@ namespace support {
 /// The first row is the start; each row after it is the state when the burst that its pressure released has ended.
 inline void write_retention(const std::filesystem::path& path, const tp::retention_curve& c, const summary& s) {
   tp::io::csv_writer table(path, {"p_c [Pa]", "p_c r/sigma", "S", "S_interior", "gas_pores"});
-  table.row(0, 0, 1, std::isnan(c.interior_residual()) ? nan : 1, 0);
+  table.row(0, 0, 1, std::isnan(c.interior_end_saturation()) ? nan : 1, 0);
   for (const tp::retention_point& p : c.points()) {
     table.row(p.pressure, p.pressure / s.pressure_unit, p.saturation, p.interior_saturation, p.events);
   }
@@ -126,7 +126,7 @@ inline void write_phases(const std::filesystem::path& folder, const tp::network&
 inline void plot_retention(const std::filesystem::path& path, const tp::retention_curve& c, const summary& s,
                            const drainage_job& job) {
   const double last = c.points().empty() ? 10 * s.pressure_unit : c.points().back().pressure;
-  const double middle = c.pressure_at(0.5 * (1 + c.residual())).value_or(last);
+  const double middle = c.pressure_at(0.5 * (1 + c.end_saturation())).value_or(last);
   const double end = std::min(1.06 * last, 3 * middle);
   const bool kilo = end >= 5000;
   const double unit = kilo ? 1000 : 1;
@@ -151,7 +151,7 @@ inline void plot_retention(const std::filesystem::path& path, const tp::retentio
   p.right_factor = unit / s.pressure_unit;
   p.y_end = end / unit;
   p.curves.push_back(std::move(all));
-  if (!std::isnan(c.interior_residual())) {
+  if (!std::isnan(c.interior_end_saturation())) {
     p.curves.push_back(std::move(interior));
   }
   if (s.fitted.ok()) {

@@ -60,8 +60,10 @@ class retention_curve {
   [[nodiscard]] std::span<const retention_point> points() const noexcept { return points_; }
   [[nodiscard]] double initial_saturation() const noexcept { return initial_; }
   /// Saturation at the end of the curve: trapped pores, and pores that gas cannot reach.
-  [[nodiscard]] double residual() const noexcept { return points_.empty() ? initial_ : points_.back().saturation; }
-  [[nodiscard]] double interior_residual() const noexcept {
+  [[nodiscard]] double end_saturation() const noexcept {
+    return points_.empty() ? initial_ : points_.back().saturation;
+  }
+  [[nodiscard]] double interior_end_saturation() const noexcept {
     return points_.empty() ? initial_interior_ : points_.back().interior_saturation;
   }
 

@@ -131,7 +131,8 @@ struct van_genuchten_fit {
   }
   double damping = 1e-3;
   bool converged = false;
-  for (int step = 0; step < 200 && !converged; ++step) {
+  bool stuck = false;  // no step, however short, lowers the cost
+  for (int step = 0; step < 200 && !converged && !stuck; ++step) {
     std::array<double, 3> h{};  // normal matrix: aa, ab, bb
     std::array<double, 2> g{};
     const double n = 1 + std::exp(b);
@@ -168,8 +169,7 @@ struct van_genuchten_fit {
       }
       if (small || damping > 1e12) {
         converged = small;
-        damping = damping > 1e12 ? 1e-3 : damping;
-        step = small ? step : 200;
+        stuck = !small;
         break;
       }
     }
@@ -181,15 +181,17 @@ struct van_genuchten_fit {
   return {{law, (1 - residual) * std::sqrt(best / static_cast<double>(used.size())), used.size()}, fit_status::ok};
 }
 
-/// The law fitted to a curve (anything with pressure_at(s) and residual()), sampled at equal steps of saturation, so
-/// that a stretch of many small events weighs no more than one of few large ones. The residual is the curve's own.
+/// The law fitted to a curve (anything with pressure_at(s) and end_saturation()), sampled at equal steps of saturation,
+/// so that a stretch of many small events weighs no more than one of few large ones. The residual of the law is the
+/// saturation at the end of the curve, which for a retention_curve is a sum of volumes and never below 0; where nothing
+/// drained it is 1, and the answer is invalid_input.
 template <class Curve>
   requires requires(const Curve& c) {
     c.pressure_at(0.5);
-    c.residual();
+    c.end_saturation();
   }
 [[nodiscard]] outcome<van_genuchten_fit, fit_status> fit_van_genuchten(const Curve& curve, std::size_t samples = 200) {
-  const double residual = std::clamp(curve.residual(), 0.0, 1.0);
+  const double residual = curve.end_saturation();
   std::vector<retention_sample> taken;
   for (std::size_t k = 0; k < samples; ++k) {
     const double share = (static_cast<double>(k) + 0.5) / static_cast<double>(samples);

@@ -67,7 +67,7 @@ struct invasion_figures {
     balance = std::abs(d.drained_liquid() + stayed - d.initial_liquid()) / d.initial_liquid();
     const retention_curve curve(d);
     half = curve.pressure_at(0.5).value_or(std::nan(""));
-    residual = curve.residual();
+    residual = curve.end_saturation();
   }
 };
 

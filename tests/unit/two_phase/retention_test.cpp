@@ -49,7 +49,7 @@ TEST_CASE("a retention curve has one point per level and is a staircase") {
   CHECK(curve.pressure_at(0.5) == 4.0);
   CHECK(curve.pressure_at(0.0) == 5.0);
   CHECK(curve.interior_pressure_at(0.5) == 4.0);
-  CHECK(curve.residual() == 0);
+  CHECK(curve.end_saturation() == 0);
 }
 
 TEST_CASE("a curve that ends above a saturation has no pressure there") {
@@ -59,7 +59,7 @@ TEST_CASE("a curve that ends above a saturation has no pressure there") {
   invasion.step();
   const retention_curve curve(invasion);
   CHECK(!curve.pressure_at(0.5).has_value());
-  CHECK(curve.residual() == doctest::Approx(0.9));
+  CHECK(curve.end_saturation() == doctest::Approx(0.9));
 }
 
 TEST_CASE("saturation falls and pressure rises along every curve") {
@@ -78,7 +78,7 @@ TEST_CASE("saturation falls and pressure rises along every curve") {
       pressure = p.pressure;
       s = p.saturation;
     }
-    CHECK(curve.residual() == doctest::Approx(saturation(net, invasion.state())).epsilon(1e-13));
+    CHECK(curve.end_saturation() == doctest::Approx(saturation(net, invasion.state())).epsilon(1e-13));
   }
 }
 
