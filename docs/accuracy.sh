@@ -15,9 +15,19 @@ page=$(mktemp)
 # Measured accuracy {#accuracy}
 
 Written by `docs/accuracy.sh`; do not edit. Each law against tables of independent truth (`tests/truth/README.md` says where
-they come from), over all rows that the law's columns appear in. *refused* counts answers with a reason instead of a value;
-*wrong* counts answers with another status than the table, refusals inside the law's stated domain, and errors above its
-stated accuracy, and is 0 for a law that keeps its word. Errors are relative; times are of one core.
+they come from), over the rows that ask something inside the law's domain. *refused* counts answers with a reason instead
+of a value; *wrong* counts answers with another status than the table, refusals inside the law's stated domain, and errors
+above its stated accuracy, and is 0 for a law that keeps its word. Errors are relative; times are of one core, over the rows
+that are not wrong.
+
+What a law states is the error for each unit of *condition*, 32 + κ: κ is how far the pressure moves, relatively, for moves
+of the coordinates and radii of the opening relative to its extent, 32 stands for the law's own roundings. A needle of radii
+1 : 1 : 1e-5 has κ = 4e5: rounding its distances to double costs more than the law does. So *max rel err* is the error as it
+stands, and *max rel err per condition* the one to hold against *stated accuracy*.
+
+Where a table prints fewer digits than a double holds, they limit what can be seen: *table digits* is half a unit of the last
+printed digit, relatively, the worst of the rows. *max rel err* is then mostly the table's rounding, and *per condition* counts
+only what goes beyond it.
 EOF
   for table in tests/truth/*.csv; do
     known=0

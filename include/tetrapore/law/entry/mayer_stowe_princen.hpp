@@ -280,16 +280,20 @@ template <std::floating_point T>
 ///              of the tests: closed (the sides cover the opening), no_hole, gap_limited, ok or dry_corner. A side of a
 ///              larger ring that lies behind an arc is left out. Arcs between sides that are no neighbours are not
 ///              looked for: a merged ring enters at the larger of its pressure and that at which the shared arc is lost
-/// \par Accuracy  `stated_accuracy`, relative, for radii down to 1 : 1000 (2.6e-13 at worst in 2·10⁵ random throats
-///                against long double, 2.5e-14 in open_msp.csv, 2e-15 in most); radii 1 : 1 : 1e-5 cost 3e-11, the
-///                rounding of their distances; at the gap limit the status may differ within the rounding of the gap
+/// \par Accuracy  |Δp|/p at most `stated_accuracy` (32 + κ), with κ = L Σ |∂p/∂x| / p over the coordinates and radii of
+///                the sides (`derivative`) and L the distance from the origin within which they lie: 32 for the law's
+///                own roundings, κ for those of the opening. Worst of the tables (truth_check, docs/accuracy.md):
+///                7.5e-17 (32 + κ); of 2·10⁵ random throats against long double 9.1e-17 (32 + κ). As relative errors:
+///                2.4e-14 in open_msp.csv, 7.8e-16 in rings, 2.5e-11 in slivers 1 : 1 : 1e-5, where κ = 4e5. At the gap
+///                limit the status may differ within the rounding of the gap
 /// \par Source  Mayer & Stowe, J. Colloid Sci. 20, 893 (1965); Princen, J. Colloid Interface Sci. 30, 69 (1969);
 ///              Chareyre et al., EPJ Web Conf. 140, 09027 (2017), §2.3
 struct mayer_stowe_princen {
   required<double> surface_tension;
   double contact_angle = 0;
 
-  static constexpr double stated_accuracy = 5e-13;
+  /// Relative error of the pressure per unit of 32 + κ.
+  static constexpr double stated_accuracy = 1.5e-16;
 
   template <real T>
   [[nodiscard]] outcome<T, entry_status> entry_pressure(const opening<T>& o) const noexcept {
