@@ -48,6 +48,7 @@ class polyhedron {
   static constexpr std::size_t max_faces = 32;
   static constexpr std::size_t max_edges = 256;
 
+  /// An edge of a face, from vertex to vertex, counter-clockwise seen from outside.
   struct directed_edge {
     std::uint8_t from;
     std::uint8_t to;

@@ -101,6 +101,7 @@ struct read_report {
   std::vector<std::string> warnings;
 };
 
+/// What a reader returns: the packing, and what it met on the way.
 struct read_result {
   tetrapore::packing packing;
   read_report report;

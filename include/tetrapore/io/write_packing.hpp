@@ -18,6 +18,7 @@
 namespace tetrapore::inline TETRAPORE_ABI {
 namespace io {
 
+/// How a packing is written.
 struct write_packing_options {
   int digits = 17;           ///< significant digits; 17 give back the same bits
   std::string comment = {};  ///< further comment lines: who made the packing, and how

@@ -23,6 +23,7 @@ namespace tetrapore::inline TETRAPORE_ABI {
 /// common, both at the same place of the grains.
 class transfer {
  public:
+  /// What one new pore takes over from one old pore.
   struct share {
     pore_id to;
     double weight;  ///< share of the old pore that the new one takes over; those of one old pore sum to 1

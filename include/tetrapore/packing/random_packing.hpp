@@ -22,6 +22,7 @@
 
 namespace tetrapore::inline TETRAPORE_ABI {
 
+/// What random_packing is asked for.
 struct random_packing_options {
   required<double> solid_fraction;     ///< sphere volume over box volume
   std::array<bool, 3> periodic{};      ///< the other axes have walls
@@ -31,6 +32,7 @@ struct random_packing_options {
   std::size_t most_iterations = 200000;
 };
 
+/// The work that random_packing took.
 struct random_packing_report {
   std::size_t iterations = 0;
   std::size_t list_rebuilds = 0;

@@ -17,6 +17,7 @@
 
 namespace tetrapore::inline TETRAPORE_ABI {
 
+/// What wrap changed.
 struct wrap_report {
   std::size_t wrapped = 0;              ///< grains moved by whole box lengths
   std::vector<std::size_t> duplicates;  ///< indices, before removal, of grains that were images of an earlier one

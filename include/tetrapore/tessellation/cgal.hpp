@@ -143,6 +143,7 @@ struct canonical_cell {
 /// \par Source    Chareyre et al. 2017, §2.1; walls: the limit of an infinite sphere of the same construction
 class cgal_triangulation {
  public:
+  /// How the topology is found; no result depends on it.
   struct options {
     double wall_device = 0x1p24;  ///< radius of the sphere that stands for a wall, in longest sides
     double first_padding = 3.0;   ///< first width of the ghost layers, in mean spacings of the grains
