@@ -98,6 +98,9 @@ void run(const drainage_job& job) {
 
   const support::history history = std::visit([&](auto& r) { return support::drain(mesh.net, r, job); }, rule);
   std::fprintf(stderr, "gas took %zu pores\n", history.events.size());
+  if (const tp::merge_counts& m = history.merges; m.asked() > 0) {
+    std::fprintf(stderr, "merged: %zu asked, %zu moved\n", m.asked(), m.moved);
+  }
   const support::summary summary = support::summarise(mesh, sizes, history, job);
   support::warn_of_gravity(summary, job);
   spent.invasion = watch.lap();

@@ -38,7 +38,7 @@ void thresholds(benchmark::State& state) {
   for (auto _ : state) {
     const fixed_rule rule(net, {1.0});
     failed = rule.totals()[verdict::failed] + rule.totals()[verdict::refused];
-    benchmark::DoNotOptimize(rule.value(throat_id(0)));
+    benchmark::DoNotOptimize(rule.alone(throat_id(0)).value);
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(net.throat_count()));
   state.counters["error"] = mayer_stowe_princen::stated_accuracy;

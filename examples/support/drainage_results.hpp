@@ -118,12 +118,9 @@ template <class Rule>
     if (net.is_boundary(t)) {
       continue;
     }
-    s.entry_pressure[k] = rule.value(t);
-    s.entry_status[k] = rule.reason(t);
-    if (rule.reason(t) == tp::entry_status::lost_arc) {  // the rule's answer in place of the law's: which was it?
-      s.entry_status[k] = rule.law().entry_pressure(ring).reason;
-    }
-    if (rule.reason(t) != tp::entry_status::closed) {
+    s.entry_pressure[k] = rule.alone(t).value;
+    s.entry_status[k] = rule.law_reason(t);
+    if (rule.law_reason(t) != tp::entry_status::closed) {
       for (const tp::pore_id p : net.pores(t)) {
         ++s.coordination[p.index()];
       }
@@ -160,8 +157,8 @@ struct history {
   std::vector<snapshot> snapshots;  ///< at falling saturations, the first and the last state among them
   tp::two_phase_state end;
   tp::retention_curve curve;
-  std::size_t merged = 0;  ///< throats at the front whose threshold was that of several facets
-  double void_volume = 0;  ///< of the pores that are not reservoir [m³]
+  tp::merge_counts merges;  ///< how the facets at the front merged
+  double void_volume = 0;   ///< of the pores that are not reservoir [m³]
 };
 
 /// Drains to the end and keeps the state where the saturation first falls to 0.9, 0.8, …
@@ -184,8 +181,8 @@ template <class Rule>
   }
   invasion.run();
   keep();
-  return {invasion.events(),    std::move(snapshots),  invasion.state(), tp::retention_curve(invasion),
-          rule.merges().merged, invasion.void_volume()};
+  return {invasion.events(), std::move(snapshots),  invasion.state(), tp::retention_curve(invasion),
+          rule.merges(),     invasion.void_volume()};
 }
 
 // the keys ------------------------------------------------------------------------------------------------------------
@@ -246,7 +243,7 @@ inline constexpr std::array<double, 4> levels_told{0.9, 0.7, 0.5, 0.3};
       ++out.answers[static_cast<std::size_t>(s.entry_status[k])];
     }
   }
-  out.merged = h.merged;
+  out.merged = h.merges.merged;
 
   out.pressure_unit = job.surface_tension / out.mean_radius;
   for (std::size_t k = 0; k < levels_told.size(); ++k) {

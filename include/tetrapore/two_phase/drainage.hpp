@@ -174,6 +174,9 @@ class drainage {
   [[nodiscard]] double void_volume() const noexcept { return void_volume_; }
   /// Liquid over void of the pores that are not reservoir.
   [[nodiscard]] double saturation() const noexcept { return (initial_liquid_ - drained_) / void_volume_; }
+  /// Answers at the front that held no value, refused and failed, by their reason: gas did not pass. A throat is asked
+  /// once where thresholds are fixed, and again each time its threshold may have moved.
+  [[nodiscard]] const status_counts& without_value() const noexcept { return without_value_; }
   /// Whether trapping is computed in two passes.
   [[nodiscard]] bool in_two_passes() const noexcept { return two_passes_; }
 
@@ -330,6 +333,15 @@ class drainage {
   /// Whether thresholds stand on the heap by their lower bounds until these come up.
   static constexpr bool by_bounds = Rule::depends_on_state && bounds_thresholds<Rule>;
 
+  /// Whether an answer lets gas pass at some pressure; what is refused or failed is counted.
+  [[nodiscard]] bool passes(const threshold_outcome& answer) {
+    const verdict v = answer.kind();
+    if (v == verdict::refused || v == verdict::failed) {
+      without_value_.add(answer.reason);
+    }
+    return v == verdict::ok;
+  }
+
   /// Asks for the threshold of a throat of the front, and puts it on the heap unless it is there as it is.
   void ask(throat_id t, pore_id target) {
     if constexpr (by_bounds) {
@@ -341,7 +353,7 @@ class drainage {
       return;
     }
     const threshold_outcome answer = rule_->threshold(*net_, state_, t);
-    const bool passable = answer.kind() == verdict::ok;
+    const bool passable = passes(answer);
     if constexpr (Rule::depends_on_state) {
       reason_[t.index()] = answer.reason;
       const double key = passable ? answer.value.lo : no_key;
@@ -394,7 +406,7 @@ class drainage {
       if constexpr (by_bounds) {
         if (holds && std::exchange(bounded_[e.throat.index()], std::uint8_t{0}) != 0) {
           const threshold_outcome answer = rule_->threshold(*net_, state_, e.throat);
-          const bool passable = answer.kind() == verdict::ok;
+          const bool passable = passes(answer);
           const double key = passable ? answer.value.lo : no_key;
           reason_[e.throat.index()] = answer.reason;
           key_[e.throat.index()] = key;
@@ -647,6 +659,7 @@ class drainage {
   double drained_ = 0;
 
   detail::front_heap heap_;
+  status_counts without_value_;
   candidate next_;
   bool any_wide_ = false;
   std::vector<double> best_;           ///< fixed rules: upper end of the lowest threshold that leads into each pore

@@ -62,8 +62,8 @@ concept names_touched_throats = requires(R r, const network& net, const two_phas
 /// Semantics:
 /// - `threshold(net, state, t)` is asked of throats with gas on one side; the side that is gas may matter. Verdict ok:
 ///   the value lies in the bracket. absent: the throat is closed by solid. refused, failed: no value; gas does not
-///   pass, and the driver counts it. Whether a throat is absent does not depend on the state, and may be asked of any
-///   throat.
+///   pass, and drainage::without_value counts it. Whether a throat is absent does not depend on the state, and may be
+///   asked of any throat.
 /// - the bracket contains the settled value; `settle` narrows, it never widens; the driver calls it with all the
 ///   candidates whose brackets overlap the lowest one, until they no longer do or nothing changes.
 /// - same opening, same value: the answer is a function of what the rule sees of (net, state), not of the past.

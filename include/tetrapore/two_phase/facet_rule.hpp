@@ -42,6 +42,9 @@ struct merge_counts {
   std::size_t no_ring = 0;     ///< the facets form no ring of at most 8 sides, or the law refuses it: the same
   std::size_t moved = 0;       ///< throats that were asked again and gave another value
   std::array<std::size_t, opening<double>::max_sides + 1> by_sides{};  ///< merged, by the number of sides
+
+  /// Throats that were asked: the gap-limited ones that came within reach of the gas.
+  [[nodiscard]] constexpr std::size_t asked() const noexcept { return merged + no_partner + no_ring; }
 };
 
 /// The thresholds of an entry law, each facet seen as an opening of its own.
@@ -67,13 +70,17 @@ class facet_rule {
 
   /// Asks the law about every facet.
   template <executor E = serial>
-  facet_rule(const network& net, const Law& law, const E& cores = {}) : law_(law), answers_(net.throat_count()) {
+  facet_rule(const network& net, const Law& law, const E& cores = {})
+      : law_(law), answers_(net.throat_count()), reasons_(net.throat_count()) {
     totals_ = evaluate(
-        cores, net.throat_count(), [&](throat_id t) noexcept { return asked(net, t); },
+        cores, net.throat_count(), [&](throat_id t) noexcept { return law_.entry_pressure(opening_at(net, t)); },
         [](std::size_t t) { return throat_id(t); },
-        [&](std::size_t t, const outcome<double, entry_status>& answer) { answers_[t] = answer; });
-    for (const auto& answer : answers_) {
-      facets_.add(answer.reason);
+        [&](std::size_t t, const outcome<double, entry_status>& answer) {
+          reasons_[t] = answer.reason;
+          answers_[t] = standing(net, throat_id(t), answer);
+        });
+    for (const entry_status reason : reasons_) {
+      facets_.add(reason);
     }
     if constexpr (depends_on_state) {
       bounds_.resize(net.throat_count());
@@ -139,14 +146,24 @@ class facet_rule {
   }
 
   [[nodiscard]] const Law& law() const noexcept { return law_; }
-  /// Answers of the law for every facet alone (under lost_arc with that status in place of gap_limited and no_hole).
+  /// Answers of the law for every facet alone, before any model of the gap.
   [[nodiscard]] const status_counts& facets() const noexcept { return facets_; }
   /// The same per verdict, with the first throat of each.
   [[nodiscard]] const tally& totals() const noexcept { return totals_; }
-  /// The law's answer for a facet alone; for a facet that came to the front under merged, its last threshold.
-  [[nodiscard]] double value(throat_id t) const noexcept { return answers_[t.index()].value; }
-  /// The law's reason for a facet alone.
-  [[nodiscard]] entry_status reason(throat_id t) const noexcept { return answers_[t.index()].reason; }
+  /// The law's own reason for the facet alone, before any model of the gap.
+  [[nodiscard]] entry_status law_reason(throat_id t) const noexcept { return reasons_[t.index()]; }
+  /// The threshold of the facet alone, the same in every state: the law's answer, or under lost_arc, where a gap gives
+  /// way first, the pressure of the lost arc with that status.
+  [[nodiscard]] const outcome<double, entry_status>& alone(throat_id t) const noexcept { return answers_[t.index()]; }
+  /// The threshold that was told last; that of the facet alone where it has no other.
+  [[nodiscard]] double last_threshold(throat_id t) const noexcept {
+    if constexpr (depends_on_state) {
+      if (last_[t.index()].how != ending::not_asked) {
+        return last_[t.index()].value;
+      }
+    }
+    return answers_[t.index()].value;
+  }
   /// How merging came out so far.
   [[nodiscard]] const merge_counts& merges() const noexcept { return merges_; }
   /// Begins the counts and notes of merging anew, for another invasion.
@@ -169,6 +186,7 @@ class facet_rule {
     std::uint8_t sides = 0;
     bool at_arc = false;
     bool moved = false;
+    double value = quiet_nan<double>;  ///< [Pa]
   };
 
   /// Throat t rested on a facet when it was last asked; a list per facet, newest first.
@@ -196,8 +214,10 @@ class facet_rule {
     return weakest_gap(net, gathered_ring(net, net.pores(t)[0], net.slot(t, 0)));
   }
 
-  [[nodiscard]] outcome<double, entry_status> asked(const network& net, throat_id t) const noexcept {
-    const auto answer = law_.entry_pressure(opening_at(net, t));
+  /// What stands for the law's answer to the facet alone.
+  [[nodiscard]] outcome<double, entry_status> standing([[maybe_unused]] const network& net,
+                                                       [[maybe_unused]] throat_id t,
+                                                       const outcome<double, entry_status>& answer) const noexcept {
     if constexpr (Model == gap_model::lost_arc) {
       if (gives_way(answer.reason)) {
         if (const double lost = weakest_gap(net, t).pressure; lost < infinity<double>) {
@@ -267,12 +287,12 @@ class facet_rule {
   threshold_outcome booked(throat_id t, double value, account now) {
     account& last = last_[t.index()];
     if (last.how != ending::not_asked) {
-      now.moved = last.moved || value != answers_[t.index()].value;
+      now.moved = last.moved || value != last.value;
       count(last, -1);
     }
     count(now, +1);
+    now.value = value;
     last = now;
-    answers_[t.index()].value = value;
     return {bracket<double>::exactly(value), now.how == ending::ring ? entry_status::merged : entry_status::lost_arc};
   }
 
@@ -287,7 +307,8 @@ class facet_rule {
   }
 
   Law law_;
-  std::vector<outcome<double, entry_status>> answers_;
+  std::vector<outcome<double, entry_status>> answers_;  ///< per facet alone; constant
+  std::vector<entry_status> reasons_;                   ///< the law's own
   status_counts facets_;
   tally totals_;
   merge_counts merges_;

@@ -81,7 +81,7 @@ TEST_CASE("every threshold of a merged rule that an event moves is named by touc
         }
         const auto answer = fresh.threshold(s.net, state, t);
         missed += answer.value.lo == value[i] ? 0U : 1U;
-        below += answer.value.lo < lost.value(t) * (1 - 1e-12) ? 1U : 0U;
+        below += answer.value.lo < lost.alone(t).value * (1 - 1e-12) ? 1U : 0U;
         const auto& [a, b] = s.net.pores(t);
         if (answer.ok() && !invasion.state().is_outlet(state.is_gas(a) ? b : a)) {
           least = std::min(least, answer.value.lo);

@@ -74,7 +74,7 @@ class decomposition {
     rule_in_parts rule;
     for (std::size_t k = 0; k < net_.throat_count(); ++k) {
       const throat_id t(k);
-      rule.throats.push_back({lost_.value(t), lost_.reason(t)});
+      rule.throats.push_back(lost_.alone(t));
       const auto ring = opening_at(net_, t);
       const bool at_wall = std::any_of(ring.sides.begin(), ring.sides.begin() + static_cast<std::ptrdiff_t>(ring.count),
                                        [](const auto& s) { return s.kind == side_kind::line; });

@@ -107,7 +107,7 @@ TEST_CASE("two facets across the diagonal of a square are one opening: four touc
   // Alone, neither facet has a threshold: where the arc in the diagonal is lost, the third rod touches it.
   const throat_id below2 = between(net, 0, 1);
   const throat_id below3 = between(net, 2, 3);
-  CHECK(rule.reason(below2) == entry_status::no_hole);
+  CHECK(rule.law_reason(below2) == entry_status::no_hole);
   CHECK(rule.threshold(net, state, below2).kind() == verdict::refused);
   // Gas above the square: the sector ends on the two halves of the square.
   state.mark_gas(pore_id(0));
@@ -183,7 +183,7 @@ TEST_CASE("a merged facet is entered at the pressure of the lost arc when its ri
     state.mark_gas(pore_id(0));
     state.mark_gas(pore_id(2));
     const throat_id t = between(net, 0, 1);
-    REQUIRE(verdict_of(rule.reason(t)) == verdict::refused);
+    REQUIRE(verdict_of(rule.law_reason(t)) == verdict::refused);
     const double p_arc = 2 / (side * std::sqrt(2.0) - 2);
     const auto square = law.entry_pressure(discs({{0, 0}, {side, 0}, {side, side}, {0, side}}));
     const auto answer = rule.threshold(net, state, t);
@@ -222,7 +222,7 @@ TEST_CASE("facets of equal spheres just beyond the limit of the gap let gas pass
     const auto rhombus = law.entry_pressure(discs({{0, 0}, {s, 0}, {1.5 * s, h}, {0.5 * s, h}}));
     REQUIRE(rhombus.ok());
     for (const throat_id t : net.throats(pore_id(0))) {
-      CHECK(rule.reason(t) == entry_status::gap_limited);
+      CHECK(rule.law_reason(t) == entry_status::gap_limited);
       const auto answer = rule.threshold(net, state, t);
       CHECK(answer.reason == entry_status::merged);
       CHECK(answer.value.lo == doctest::Approx(2 / gap).epsilon(1e-12));
@@ -243,4 +243,31 @@ TEST_CASE("a rule of a law that knows no gaps, and a rule that refuses, keep the
   CHECK(answer.reason == entry_status::no_hole);
   CHECK(answer.kind() == verdict::refused);
   CHECK(strict.totals()[verdict::refused] == strict.facets()[entry_status::no_hole]);
+}
+
+TEST_CASE("the answer for a facet alone and the law's own reason stay as they are while thresholds move") {
+  const auto law = mayer_stowe_princen{1.0};
+  const network net = octahedron(2.0);
+  merged_rule rule(net, law);
+  const facet_rule<mayer_stowe_princen, gap_model::lost_arc> lost(net, law);
+  for (std::size_t i = 0; i < net.throat_count(); ++i) {
+    const throat_id t(i);
+    const auto own = law.entry_pressure(opening_at(net, t));
+    CHECK(rule.law_reason(t) == own.reason);
+    CHECK(lost.law_reason(t) == own.reason);
+    CHECK((own.ok() ? rule.last_threshold(t) == own.value : std::isnan(rule.last_threshold(t))));
+    CHECK(lost.last_threshold(t) == lost.alone(t).value);
+  }
+  CHECK(lost.facets()[entry_status::no_hole] == rule.facets()[entry_status::no_hole]);
+  CHECK(lost.facets()[entry_status::no_hole] > 0);
+  CHECK(lost.facets()[entry_status::lost_arc] == 0);
+  two_phase_state state(net);
+  state.mark_gas(pore_id(0));
+  const throat_id t = between(net, 0, 1);
+  const auto before = rule.alone(t);
+  const auto answer = rule.threshold(net, state, t);
+  CHECK(rule.last_threshold(t) == answer.value.lo);
+  CHECK(std::isnan(before.value));
+  CHECK(std::isnan(rule.alone(t).value));
+  CHECK(rule.alone(t).reason == before.reason);
 }

@@ -62,6 +62,35 @@ TEST_CASE("a curve that ends above a saturation has no pressure there") {
   CHECK(curve.end_saturation() == doctest::Approx(0.9));
 }
 
+TEST_CASE("a throat without a value stops the gas, and is counted by its reason") {
+  struct broken_rule : given_rule {
+    [[nodiscard]] threshold_outcome threshold(const network& net, const two_phase_state& state, throat_id t) const {
+      if (t == throat_id(2)) {
+        return {bracket<double>::exactly(quiet_nan<double>), entry_status::not_converged};
+      }
+      return given_rule::threshold(net, state, t);
+    }
+  };
+  const network net = chain();
+  broken_rule rule{{{3, 4, 2, 5, 4}}};
+  drainage invasion(net, rule, {.trap = trapping::none});
+  CHECK(invasion.without_value()[entry_status::not_converged] == 0);
+  invasion.run();
+  CHECK(invasion.events().size() == 2);
+  CHECK(invasion.without_value()[entry_status::not_converged] == 1);
+  CHECK(invasion.without_value().of(verdict::failed) == 1);
+  CHECK(invasion.without_value().of(verdict::ok) == 0);
+}
+
+TEST_CASE("a curve on which nothing drained has no law to fit, and the fit says so") {
+  const network net = chain();
+  given_rule rule{{3, 4, 2, 5, 4}};
+  const drainage invasion(net, rule);
+  const retention_curve curve(invasion);
+  CHECK(curve.end_saturation() == 1);
+  CHECK(fit_van_genuchten(curve).reason == fit_status::invalid_input);
+}
+
 TEST_CASE("saturation falls and pressure rises along every curve") {
   std::mt19937 random(8);
   for (int k = 0; k < 200; ++k) {
