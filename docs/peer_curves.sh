@@ -28,6 +28,13 @@ peer() {
 # last FILE COLUMN: the last number of a column
 last() { awk -F, -v c="$2" 'NR > 1 && $c != "" { s = $c } END { printf "%.4f", s }' "$1"; }
 
+# moved LOG: "asked / moved" from what the program says of merging
+moved() {
+  local told
+  told=$(sed -n 's/^merged: \([0-9]*\) asked, \([0-9]*\) moved$/\1 \/ \2/p' "$1")
+  echo "${told:-–}"
+}
+
 page=$scratch/page.md
 cat >"$page" <<'EOF'
 # Curves beside Yade's {#peer_curves}
@@ -36,25 +43,28 @@ Written by `docs/peer_curves.sh`; do not edit. The same packings, gas from y_max
 mean radius over surface tension at four saturations of all pores that are not reservoir; the share of them that is trapped;
 where the curve ends, with trapping and without.
 Yade's radius of a wide gap is clamped to half the gap; `lost_arc` names the same pressure, `merged` lets the two facets at
-the gap share a meniscus, `refused` keeps such throats shut. Yade also asks that gas enter the inscribed sphere of the
-pore body, and tests trapping after each sweep of the pressure; ours does so at every event. Facet by facet the entry radii
-of the two codes are equal away from walls, and lower here at walls (docs/yade.md), which moves the curves up.
+the gap share a meniscus, `refused` keeps such throats shut. Facet by facet the entry radii of the two codes are equal away
+from walls. At a wall Yade takes σ over the inscribed radius, without the factor 2 of a meniscus: about half the pressure at
+which gas enters there, so its curve lies lower. It also tests trapping after each sweep of the pressure, ours at every event,
+which is why more is trapped here. [Why is my curve different from Yade's](yade.md) takes the difference apart.
+*Asked, moved*: how many facets whose widest gap gives way first came within reach of the gas, and for how many of these the
+threshold was told again with another value, because it depends on the state.
 EOF
 for packing in open_1000 open_10000; do
   radius=$(awk '!/^#/ { s += $4; ++n } END { printf "%.17g", s / n }' "$shared/packings/$packing.txt")
   {
-    printf '\n## %s\n\n| model | S = 0.9 | 0.7 | 0.5 | 0.3 | trapped | S at the end | without trapping |\n|---|---|---|---|---|---|---|---|\n' "$packing"
+    printf '\n## %s\n\n| model | S = 0.9 | 0.7 | 0.5 | 0.3 | trapped | S at the end | without trapping | asked / moved |\n|---|---|---|---|---|---|---|---|---|\n' "$packing"
     printf '| Yade '
     peer "$shared/peer_yade/${packing}_drainage_pore.csv" "$radius" 4
     if [ -e "$shared/peer_yade/${packing}_drainage_pore_notrap.csv" ]; then
-      printf '| %s |\n' "$(last "$shared/peer_yade/${packing}_drainage_pore_notrap.csv" 4)"
+      printf '| %s | – |\n' "$(last "$shared/peer_yade/${packing}_drainage_pore_notrap.csv" 4)"
     else
-      printf '| – |\n'
+      printf '| – | – |\n'
     fi
   } >>"$page"
   for model in lost_arc merged refused; do
     build/release/examples/primary_drainage "$shared/packings/$packing.txt" --surface-tension 1 --gap-limited $model \
-      --out "$scratch/$packing-$model" >"$scratch/$packing-$model.txt" 2>/dev/null
+      --out "$scratch/$packing-$model" >"$scratch/$packing-$model.txt" 2>"$scratch/$packing-$model.log"
     build/release/examples/primary_drainage "$shared/packings/$packing.txt" --surface-tension 1 --gap-limited $model \
       --no-trapping --out "$scratch/$packing-$model-free" >/dev/null 2>&1
     keys=$scratch/$packing-$model.txt
@@ -64,8 +74,8 @@ for packing in open_1000 open_10000; do
         v=$(value "$keys" pc_s$s)
         case $v in [0-9]*) printf '| %.3f ' "$v" ;; *) printf '| – ' ;; esac
       done
-      printf '| %.4f | %s | %s |\n' "$(value "$keys" residual_saturation)" \
-        "$(last "$scratch/$packing-$model/retention.csv" 3)" "$(last "$scratch/$packing-$model-free/retention.csv" 3)"
+      printf '| %.4f | %s | %s | %s |\n' "$(value "$keys" residual_saturation)" \
+        "$(last "$scratch/$packing-$model/retention.csv" 3)" "$(last "$scratch/$packing-$model-free/retention.csv" 3)" "$(moved "$scratch/$packing-$model.log")"
     } >>"$page"
   done
   lost=$scratch/$packing-lost_arc.txt
