@@ -122,8 +122,11 @@ struct state_archive {
   }
   template <class T, std::size_t N>
   static void append(std::vector<std::byte>& out, std::span<T, N> values) {
-    const auto bytes = std::as_bytes(values);
-    out.insert(out.end(), bytes.begin(), bytes.end());
+    const std::size_t end = out.size();
+    out.resize(end + values.size_bytes());
+    if (!values.empty()) {
+      std::memcpy(out.data() + end, values.data(), values.size_bytes());
+    }
   }
   template <class T>
   static void take(std::span<const std::byte>& from, std::span<T> values) {
