@@ -240,36 +240,84 @@ class facet_rule {
     return weakest_gap(net, t).pressure;
   }
 
-  [[nodiscard]] threshold_outcome merged_threshold(const network& net, const two_phase_state& state, throat_id t) {
+  /// The facet seen from the gas.
+  [[nodiscard]] static gathered_ring from_gas(const network& net, const two_phase_state& state, throat_id t) {
     const std::size_t side = state.is_gas(net.pores(t)[0]) ? 0 : 1;
-    gathered_ring ring(net, net.pores(t)[side], net.slot(t, side));
+    return gathered_ring(net, net.pores(t)[side], net.slot(t, side));
+  }
+
+  /// Lets facets join the ring until the law lets gas in or nothing more can join. The answer for `asking` rests on
+  /// each of them. `lost` rises to the pressure of the last arc lost; `entered` is that of the ring.
+  [[nodiscard]] ending merge_facets(const network& net, const two_phase_state& state, throat_id asking,
+                                    gathered_ring& ring, double& lost, double& entered) {
     const auto is_gas = [&](pore_id p) { return state.is_gas(p); };
-    ++askings_[t.index()];
-    double lost = bounds_[t.index()];
     for (;;) {
       const arc_limit<double> limit = weakest_gap(net, ring);
       if (!(limit.pressure < infinity<double>)) {
-        return booked(t, lost, {ending::no_ring});
+        return ending::no_ring;
       }
       lost = limit.pressure > lost ? limit.pressure : lost;
       const std::size_t before = ring.facets().size();
       const auto grown = ring.grow(net, limit.gap, is_gas);
-      if (ring.facets().size() > before) {
-        take_note(t, ring.facets().back());
+      if (ring.facets().size() > before && ring.facets().back() != asking) {
+        take_note(asking, ring.facets().back());
       }
       if (grown != gathered_ring::growth::grown) {
-        return booked(t, lost, {grown == gathered_ring::growth::no_partner ? ending::no_partner : ending::no_ring});
+        return grown == gathered_ring::growth::no_partner ? ending::no_partner : ending::no_ring;
       }
       const auto answer = law_.entry_pressure(ring.ring());
       if (answer.ok()) {
-        const bool at_arc = !(answer.value > lost);
-        return booked(t, at_arc ? lost : answer.value,
-                      {ending::ring, static_cast<std::uint8_t>(ring.ring().count), at_arc});
+        entered = answer.value;
+        return ending::ring;
       }
-      if (answer.reason != entry_status::gap_limited && answer.reason != entry_status::no_hole) {
-        return booked(t, lost, {ending::no_ring});
+      if (!gives_way(answer.reason)) {
+        return ending::no_ring;
       }
     }
+  }
+
+  [[nodiscard]] static bool same_facets(const gathered_ring& a, const gathered_ring& b) noexcept {
+    const auto in_b = [&](throat_id t) {
+      for (const throat_id u : b.facets()) {
+        if (u == t) {
+          return true;
+        }
+      }
+      return false;
+    };
+    for (const throat_id t : a.facets()) {
+      if (!in_b(t)) {
+        return false;
+      }
+    }
+    return a.facets().size() == b.facets().size();
+  }
+
+  [[nodiscard]] threshold_outcome merged_threshold(const network& net, const two_phase_state& state, throat_id t) {
+    gathered_ring ring = from_gas(net, state, t);
+    ++askings_[t.index()];
+    double lost = bounds_[t.index()];
+    double entered = 0;
+    const ending how = merge_facets(net, state, t, ring, lost, entered);
+    if (how != ending::ring) {
+      return booked(t, lost, {how});
+    }
+    // Facets of one ring read the same pressure off it, to the last bit: that of the ring as its first facet unfolds it.
+    // Otherwise round-off, and with it the unit of length, would choose the pore that gas takes.
+    throat_id first = t;
+    for (const throat_id u : ring.facets()) {
+      first = u < first ? u : first;
+    }
+    if (first != t) {
+      gathered_ring twin = from_gas(net, state, first);
+      double twin_lost = 0;
+      double twin_entered = 0;
+      if (merge_facets(net, state, t, twin, twin_lost, twin_entered) == ending::ring && same_facets(ring, twin)) {
+        entered = twin_entered;
+      }
+    }
+    const bool at_arc = !(entered > lost);
+    return booked(t, at_arc ? lost : entered, {ending::ring, static_cast<std::uint8_t>(ring.ring().count), at_arc});
   }
 
   void take_note(throat_id t, throat_id rests_on) {
