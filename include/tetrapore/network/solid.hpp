@@ -35,8 +35,8 @@ namespace detail {
 }
 
 [[nodiscard]] inline bool same_plane(const plane<double>& a, const plane<double>& b, double length) noexcept {
-  // Planes of the same face of a hull differ by the rounding of its corners. To take two of them for one misplaces at most
-  // this share of the ball's radius over its section: well below the 1e-12 of the region that the sum is held to.
+  // Planes of the same face of a hull differ by the rounding of its corners. To take two of them for one misplaces at
+  // most this share of the ball's radius over its section: well below the 1e-12 of the region that the sum is held to.
   constexpr double rounding = 1e-12;
   return norm2(a.normal - b.normal) < rounding * rounding && std::abs(b.distance(a.point)) < rounding * length;
 }

@@ -14,8 +14,8 @@ namespace tetrapore::inline TETRAPORE_ABI {
 /// How strict `validate` is about cells turned inside out.
 struct validation {
   /// Least signed volume of a cell, in units of the cube of its longest edge; below it a cell counts as inverted. Flat
-  /// cells of exact lattices have the rounding of their coordinates here, ε |x| / edge: the default lets them pass up to
-  /// 5,000 edges from the origin. Farther away a caller who expects flat cells lowers it.
+  /// cells of exact lattices have the rounding of their coordinates here, ε |x| / edge: the default lets them pass up
+  /// to 5,000 edges from the origin. Farther away a caller who expects flat cells lowers it.
   double least_shape = -1e-12;
 };
 

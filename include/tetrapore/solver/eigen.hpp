@@ -16,8 +16,8 @@ namespace tetrapore::inline TETRAPORE_ABI {
 /// The matrix of Σ_j w_ij (x_i − x_j) + s_i x_i over the pores of a network.
 /// \param weights  one per throat, at least 0; those of boundary throats are left out
 /// \param excess   one per pore, at least 0: what ties a pore to a fixed level
-/// \par Accuracy  each diagonal is a sum that rounds: where weights differ by a factor c within a row, the small ones lose
-/// their digits beyond 1/(c ε). An oracle for moderate contrast
+/// \par Accuracy  each diagonal is a sum that rounds: where weights differ by a factor c within a row, the small ones
+/// lose their digits beyond 1/(c ε). An oracle for moderate contrast
 /// \par Source  Chareyre et al. 2017, Eq. (1)
 [[nodiscard]] inline Eigen::SparseMatrix<double> laplacian(const network& net, std::span<const double> weights,
                                                            std::span<const double> excess) {

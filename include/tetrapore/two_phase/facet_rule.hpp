@@ -302,8 +302,8 @@ class facet_rule {
     if (how != ending::ring) {
       return booked(t, lost, {how});
     }
-    // Facets of one ring read the same pressure off it, to the last bit: that of the ring as its first facet unfolds it.
-    // Otherwise round-off, and with it the unit of length, would choose the pore that gas takes.
+    // Facets of one ring read the same pressure off it, to the last bit: that of the ring as its first facet unfolds
+    // it. Otherwise round-off, and with it the unit of length, would choose the pore that gas takes.
     throat_id first = t;
     for (const throat_id u : ring.facets()) {
       first = u < first ? u : first;
