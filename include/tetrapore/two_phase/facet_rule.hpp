@@ -210,8 +210,22 @@ class facet_rule {
     return weakest;
   }
 
-  [[nodiscard]] arc_limit<double> weakest_gap(const network& net, throat_id t) const noexcept {
-    return weakest_gap(net, gathered_ring(net, net.pores(t)[0], net.slot(t, 0)));
+  /// The pressure at which a facet alone loses its first arc.
+  [[nodiscard]] double first_arc_lost(const network& net, throat_id t) const noexcept {
+    const pore_id p = net.pores(t)[0];
+    const auto& slots = facet_vertices[net.slot(t, 0)];
+    double lowest = infinity<double>;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t a = slots[k];
+      const std::size_t b = slots[(k + 1) % 3];
+      if (net.vertices(p)[a].is_wall() && net.vertices(p)[b].is_wall()) {
+        continue;
+      }
+      if (const auto lost = law_.arc_lost(edge_at(net, p, a, b)); lost.ok() && lost.value < lowest) {
+        lowest = lost.value;
+      }
+    }
+    return lowest;
   }
 
   /// What stands for the law's answer to the facet alone.
@@ -220,7 +234,7 @@ class facet_rule {
                                                        const outcome<double, entry_status>& answer) const noexcept {
     if constexpr (Model == gap_model::lost_arc) {
       if (gives_way(answer.reason)) {
-        if (const double lost = weakest_gap(net, t).pressure; lost < infinity<double>) {
+        if (const double lost = first_arc_lost(net, t); lost < infinity<double>) {
           return {lost, entry_status::lost_arc};
         }
       }
@@ -237,7 +251,7 @@ class facet_rule {
     if (!gives_way(alone.reason)) {
       return alone.ok() ? alone.value : infinity<double>;
     }
-    return weakest_gap(net, t).pressure;
+    return first_arc_lost(net, t);
   }
 
   /// The facet seen from the gas.
