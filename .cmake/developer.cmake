@@ -28,9 +28,10 @@ endmacro()
 # What a program links follows from what its sources include, through our own headers: one row per dependency, the start
 # of the included name (a regular expression), then a component of tetrapore, or a package, its target and its Debian
 # package.
-set(tetrapore_dependency_rows cgal eigen cli png eigen_oracle)
+set(tetrapore_dependency_rows cgal eigen cholmod cli png eigen_oracle)
 set(tetrapore_dependency_cgal "tetrapore/tessellation/cgal\\.hpp")
 set(tetrapore_dependency_eigen "tetrapore/solver/eigen\\.hpp")
+set(tetrapore_dependency_cholmod "tetrapore/solver/cholmod\\.hpp")
 set(tetrapore_dependency_cli "CLI/" CLI11 CLI11::CLI11 libcli11-dev)
 set(tetrapore_dependency_png "png\\.h" PNG PNG::PNG libpng-dev)
 set(tetrapore_dependency_eigen_oracle "Eigen/" Eigen3 Eigen3::Eigen libeigen3-dev)

@@ -16,8 +16,13 @@
 
 set(tetrapore_component_cgal "tessellation/cgal.hpp" CGAL CGAL::CGAL libcgal-dev "GPL-3.0-or-later (or commercial)")
 set(tetrapore_component_eigen "solver/eigen.hpp" Eigen3 Eigen3::Eigen libeigen3-dev "MPL-2.0")
+set(tetrapore_component_cholmod "solver/cholmod.hpp" CHOLMOD SuiteSparse::CHOLMOD "libsuitesparse-dev libopenblas-dev"
+  "GPL-2.0-or-later (CHOLMOD's Supernodal and Modify modules)")
 
-set(tetrapore_known_components cgal eigen)
+set(tetrapore_known_components cgal eigen cholmod)
+
+# Our find modules lie beside this file, in the sources and where it is installed.
+set(tetrapore_module_dir "${CMAKE_CURRENT_LIST_DIR}")
 
 # Keeps the components whose header exists below `include_dir`.
 function(tetrapore_list_components include_dir out)
@@ -42,10 +47,12 @@ macro(tetrapore_find_component name available error)
     list(GET tetrapore_component_${name} 2 _tetrapore_target)
     list(GET tetrapore_component_${name} 3 _tetrapore_debian)
     if(NOT TARGET ${_tetrapore_target})
+      list(APPEND CMAKE_MODULE_PATH "${tetrapore_module_dir}")
       find_package(${_tetrapore_package} QUIET)
+      list(POP_BACK CMAKE_MODULE_PATH)
     endif()
     if(NOT TARGET ${_tetrapore_target})
-      set(${error} "component '${name}' needs ${_tetrapore_package}, which was not found. On Debian: apt-get install ${_tetrapore_debian}. Elsewhere: set ${_tetrapore_package}_DIR. Without the component, ask for COMPONENTS core.")
+      set(${error} "component '${name}' needs ${_tetrapore_package}, which was not found. On Debian: apt-get install ${_tetrapore_debian}. Elsewhere: name its prefix in CMAKE_PREFIX_PATH. Without the component, ask for COMPONENTS core.")
     endif()
     unset(_tetrapore_package)
     unset(_tetrapore_target)
