@@ -10,12 +10,16 @@
 #include <CGAL/Regular_triangulation_3.h>
 #include <CGAL/Regular_triangulation_cell_base_3.h>
 #include <CGAL/Regular_triangulation_vertex_base_3.h>
+#include <CGAL/Spatial_sort_traits_adapter_3.h>
 #include <CGAL/Triangulation_cell_base_with_info_3.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
+#include <CGAL/hilbert_sort.h>
+#include <CGAL/property_map.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -184,7 +188,9 @@ class cgal_triangulation {
     insert_walls(t, region, frame);  // first: a query at a wall would always need exact arithmetic
     const std::vector<vec3<double>> where = insert_grains(t, grains, region, frame, padding, report);
     note_hidden(t, where, report);
-    auto cells = region.any_periodic() ? periodic_cells(t) : bounded_cells(t);
+    std::vector<regular::Cell_handle> handles = region.any_periodic() ? unrepeated_pores(t) : pores(t);
+    number_along_curve(handles, where);
+    auto cells = region.any_periodic() ? periodic_cells(t, handles) : bounded_cells(handles);
     if (!cells) {
       return std::nullopt;
     }
@@ -329,17 +335,74 @@ class cgal_triangulation {
     return out;
   }
 
-  [[nodiscard]] static std::optional<std::vector<cell>> bounded_cells(const regular& t) {
-    std::vector<cell> cells;
+  /// All pores; other cells are marked as outside.
+  [[nodiscard]] static std::vector<regular::Cell_handle> pores(const regular& t) {
     std::vector<regular::Cell_handle> handles;
     handles.reserve(t.number_of_cells());
     for (auto c = t.all_cells_begin(); c != t.all_cells_end(); ++c) {
-      const bool pore = is_pore(t, c);
-      c->info() = pore ? static_cast<std::uint32_t>(handles.size()) : cell::outside;
-      if (pore) {
+      c->info() = cell::outside;
+      if (is_pore(t, c)) {
         handles.push_back(c);
       }
     }
+    return handles;
+  }
+
+  /// One pore of each class of translates; other cells are marked as outside.
+  [[nodiscard]] static std::vector<regular::Cell_handle> unrepeated_pores(const regular& t) {
+    std::vector<regular::Cell_handle> handles = pores(t);
+    std::erase_if(handles, [](const regular::Cell_handle c) {
+      const auto sites = sites_of(c);
+      return !detail::in_translate(detail::canonical(sites), sites);
+    });
+    return handles;
+  }
+
+  /// Orders pores along a space-filling curve through the grains and numbers them: neighbours in space lie near each
+  /// other in memory, in whatever order the grains came.
+  static void number_along_curve(std::vector<regular::Cell_handle>& handles, const std::vector<vec3<double>>& where) {
+    std::vector<std::pair<detail::cgal_kernel::Point_3, std::uint32_t>> stops;
+    stops.reserve(where.size());
+    for (std::size_t i = 0; i < where.size(); ++i) {
+      stops.emplace_back(detail::cgal_kernel::Point_3(where[i].x, where[i].y, where[i].z),
+                         static_cast<std::uint32_t>(i));
+    }
+    using point_of = CGAL::First_of_pair_property_map<std::pair<detail::cgal_kernel::Point_3, std::uint32_t>>;
+    CGAL::hilbert_sort(stops.begin(), stops.end(),
+                       CGAL::Spatial_sort_traits_adapter_3<detail::cgal_kernel, point_of>());
+    std::vector<std::uint32_t> rank(where.size());
+    for (std::size_t i = 0; i < stops.size(); ++i) {
+      rank[stops[i].second] = static_cast<std::uint32_t>(i);
+    }
+    const auto first_stop = [&](const regular::Cell_handle c) {
+      std::uint32_t first = cell::outside;
+      for (int k = 0; k < 4; ++k) {
+        const vertex v = c->vertex(k)->info().name;
+        first = v.is_wall() ? first : std::min(first, rank[v.grain().index()]);
+      }
+      return first;
+    };
+    std::vector<std::uint32_t> keys;
+    keys.reserve(handles.size());
+    std::vector<std::size_t> begin(where.size() + 1, 0);
+    for (const auto c : handles) {
+      keys.push_back(first_stop(c));
+      ++begin[keys.back() + 1];
+    }
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    std::vector<regular::Cell_handle> sorted(handles.size());
+    for (std::size_t i = 0; i < handles.size(); ++i) {
+      sorted[begin[keys[i]]++] = handles[i];
+    }
+    handles = std::move(sorted);
+    for (std::size_t i = 0; i < handles.size(); ++i) {
+      handles[i]->info() = static_cast<std::uint32_t>(i);
+    }
+  }
+
+  [[nodiscard]] static std::optional<std::vector<cell>> bounded_cells(
+      const std::vector<regular::Cell_handle>& handles) {
+    std::vector<cell> cells;
     cells.reserve(handles.size());
     for (const auto c : handles) {
       cells.push_back(named(sites_of(c)));
@@ -350,19 +413,9 @@ class cgal_triangulation {
     return cells;
   }
 
-  /// One cell of each class of translates; empty when the ghost layers were too thin for one of them.
-  [[nodiscard]] static std::optional<std::vector<cell>> periodic_cells(const regular& t) {
-    std::vector<regular::Cell_handle> handles;
-    for (auto c = t.all_cells_begin(); c != t.all_cells_end(); ++c) {
-      c->info() = cell::outside;
-      if (is_pore(t, c)) {
-        const auto sites = sites_of(c);
-        if (detail::in_translate(detail::canonical(sites), sites)) {
-          c->info() = static_cast<std::uint32_t>(handles.size());
-          handles.push_back(c);
-        }
-      }
-    }
+  /// The pores' cells; empty when the ghost layers were too thin for one of them.
+  [[nodiscard]] static std::optional<std::vector<cell>> periodic_cells(
+      const regular& t, const std::vector<regular::Cell_handle>& handles) {
     std::map<detail::canonical_cell, std::uint32_t> rim;
     for (const auto c : handles) {
       for (int k = 0; k < 4; ++k) {
