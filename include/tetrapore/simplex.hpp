@@ -11,3 +11,4 @@
 #include "tetrapore/simplex/pore_volume.hpp"
 #include "tetrapore/simplex/throat.hpp"
 #include "tetrapore/simplex/throat_geometry.hpp"
+#include "tetrapore/simplex/throat_hydraulics.hpp"

@@ -38,7 +38,7 @@ struct plane_polygon {
   [[nodiscard]] constexpr T area() const noexcept {
     T twice(0);
     for (std::size_t k = 1; k + 1 < count; ++k) {
-      twice += cross(corners[k] - corners[0], corners[k + 1] - corners[0]);
+      twice = twice + cross(corners[k] - corners[0], corners[k + 1] - corners[0]);
     }
     return twice / T(2);
   }
@@ -88,16 +88,16 @@ template <real T>
     const T w2 = (r - height) * (r + height);
     const T w = w2 > T(0) ? sqrt(w2) : T(0);
     if (!(w2 > T(0)) || begin >= w || end <= -w) {
-      twice += sector(begin, end);
+      twice = twice + sector(begin, end);
       continue;
     }
     if (begin < -w) {
-      twice += sector(begin, -w);
+      twice = twice + sector(begin, -w);
     }
     if (end > w) {
-      twice += sector(w, end);
+      twice = twice + sector(w, end);
     }
-    twice += height * (detail::smaller(end, w) - detail::larger(begin, -w));
+    twice = twice + height * (detail::smaller(end, w) - detail::larger(begin, -w));
   }
   return twice / T(2);
 }

@@ -53,24 +53,24 @@ template <real T>
   return p;
 }
 
-}  // namespace detail
-
-/// Area of the facet outside the discs of its grains: the sectors at the corners, without the segments that stick out
-/// of the opposite edge or beyond a wall, and with what discs share counted once.
-/// \par Units  [m²]
-/// \par Domain  any throat; flat ones have no area
-/// \par Accuracy  a few epsilon of the square of the largest radius or edge
-/// \par Source  Chareyre et al. 2017, §2.2, with the segments on all three sides
+/// What lies in the facet: its own area, and that of the disc of each grain.
 template <real T>
-[[nodiscard]] outcome<T, geometry_status> fluid_area(const throat<T>& t) noexcept {
-  TETRAPORE_EXPECTS(t.grain_count >= 1 && t.grain_count <= 3, "a throat has one to three grains");
-  const plane_polygon<T> whole = detail::facet_in_plane(t);
+struct facet_areas {
+  T whole;                ///< [m²]
+  std::array<T, 3> disc;  ///< [m²] inside the facet; what discs share is split along their radical line
+
+  [[nodiscard]] constexpr T fluid() const noexcept { return whole - (disc[0] + disc[1] + disc[2]); }
+};
+
+template <real T>
+[[nodiscard]] facet_areas<T> areas_in_facet(const throat<T>& t) noexcept {
+  const plane_polygon<T> whole = facet_in_plane(t);
   std::array<disc<T>, 3> discs{};
   for (std::size_t k = 0; k < t.grain_count; ++k) {
     // of a trapezoid the second centre is the last corner
     discs[k] = {whole.corners[t.grain_count == 2 && k == 1 ? 3 : k], t.grains[k].radius};
   }
-  T covered(0);
+  facet_areas<T> out{whole.area(), {T(0), T(0), T(0)}};
   for (std::size_t i = 0; i < t.grain_count; ++i) {
     plane_polygon<T> part = whole;
     for (std::size_t j = 0; j < t.grain_count; ++j) {
@@ -91,9 +91,23 @@ template <real T>
         part.count = 0;
       }
     }
-    covered += disc_area(discs[i], part);
+    out.disc[i] = disc_area(discs[i], part);
   }
-  return detail::checked(whole.area() - covered);
+  return out;
+}
+
+}  // namespace detail
+
+/// Area of the facet outside the discs of its grains: the sectors at the corners, without the segments that stick out
+/// of the opposite edge or beyond a wall, and with what discs share counted once.
+/// \par Units  [m²]
+/// \par Domain  any throat; flat ones have no area
+/// \par Accuracy  a few epsilon of the square of the largest radius or edge
+/// \par Source  Chareyre et al. 2017, §2.2, with the segments on all three sides
+template <real T>
+[[nodiscard]] outcome<T, geometry_status> fluid_area(const throat<T>& t) noexcept {
+  TETRAPORE_EXPECTS(t.grain_count >= 1 && t.grain_count <= 3, "a throat has one to three grains");
+  return detail::checked(detail::areas_in_facet(t).fluid());
 }
 
 }  // namespace tetrapore::inline TETRAPORE_ABI

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "tetrapore/core/required.hpp"
+#include "tetrapore/law/conductance/concept.hpp"
+
+namespace tetrapore::inline TETRAPORE_ABI {
+
+/// Conductance by the hydraulic radius R_h of the throat domain: K = α A (2 R_h)² / (8 μ L), A the fluid area of the
+/// facet. Exact for a straight tube between two nodes.
+/// \par Units   viscosity [Pa s], result [m³/(Pa s)]
+/// \par Domain  throats with fluid area and two nodes; R_h > 0
+/// \par Source  Chareyre et al. 2012, Transp. Porous Media 92, 473, Eqs. (15)-(18); Chareyre et al., EPJ Web Conf. 140,
+///              09027 (2017), §2.2
+struct hydraulic_radius {
+  required<double> viscosity;
+  double factor = 1;  ///< α
+  wall_condition wall = wall_condition::no_slip;
+
+  template <real T>
+  [[nodiscard]] outcome<T, conductance_status> conductance(const throat<T>& t) const noexcept {
+    if (!detail::positive(viscosity) || !detail::positive(factor)) {
+      return detail::no_conductance<T>(conductance_status::invalid_input);
+    }
+    const auto h = hydraulics_of(t);
+    const conductance_status first = detail::admit(t, h);
+    if (first != conductance_status::ok) {
+      return detail::refused_by<T>(first);
+    }
+    const T radius = h.value.hydraulic_radius(wall);
+    if (!(radius > T(0))) {
+      return detail::no_conductance<T>(conductance_status::negative_hydraulic_radius);
+    }
+    using value_type = underlying_t<T>;
+    const T scale(static_cast<value_type>(factor) / (2 * static_cast<value_type>(viscosity.get())));
+    return {scale * h.value.fluid_area * radius * radius / h.value.length, conductance_status::ok};
+  }
+};
+static_assert(conductance_law<hydraulic_radius, double>);
+
+}  // namespace tetrapore::inline TETRAPORE_ABI
