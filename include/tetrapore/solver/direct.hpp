@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "tetrapore/solver/concept.hpp"
+#include "tetrapore/solver/pressure_system.hpp"
+
+#include <concepts>
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+/// \file
+/// A network_solver around any factorization.
+
+namespace tetrapore::inline TETRAPORE_ABI {
+
+/// A factorization of the matrix of a pressure system.
+/// Syntax: `f.analyze(graph)`; `f.factorize(graph, w, s)`, true when the factor exists; `f.apply(b, x)`, x = A⁻¹ b.
+/// Semantics: s is such that A is definite (floating clusters are grounded). b and x do not overlap.
+/// Models: subtraction_free_ldlt; the factors of solver/eigen.hpp and solver/cholmod.hpp.
+template <class F>
+concept pressure_factor = std::default_initializable<F> &&
+                          requires(F f, const network_graph& graph, std::span<const double> in, std::span<double> x) {
+                            f.analyze(graph);
+                            { f.factorize(graph, in, in) } -> std::same_as<bool>;
+                            f.apply(in, x);
+                          };
+
+/// Solves with a factor, and refines the solution by residuals in flux form until the scaled residual
+/// ‖D^-½ r‖ / ‖D^-½ b‖ is below the tolerance or no longer halves.
+/// \par Accuracy  that of the factor where it is subtraction-free; else refinement mends what assembling the diagonal
+/// lost as long as the factor is right in its first digit
+template <pressure_factor Factor>
+class direct_solver {
+ public:
+  direct_solver() = default;
+  explicit direct_solver(Factor factor) : factor_(std::move(factor)) {}
+
+  void analyze(const network_graph& graph) {
+    system_.analyze(graph);
+    factor_.analyze(graph);
+    ready_ = false;
+  }
+
+  [[nodiscard]] solve_report factorize(std::span<const double> weights, std::span<const double> excess) {
+    ready_ = false;
+    solve_report report = system_.factorize(weights, excess);
+    if (report.ok()) {
+      ready_ = factor_.factorize(system_.graph(), system_.weights(), system_.grounded_excess());
+      report.reason = ready_ ? solve_status::ok : solve_status::factorization_failed;
+    }
+    return report;
+  }
+
+  [[nodiscard]] solve_report solve(std::span<const double> b, std::span<double> x, const solve_options& options = {}) {
+    if (!ready_) {
+      return {};
+    }
+    solve_report report = system_.begin(b, x, options);
+    if (!report.ok()) {
+      return report;
+    }
+    factor_.apply(system_.sources(), x);
+    residual_.resize(x.size());
+    correction_.resize(x.size());
+    const double target = options.tolerance * system_.scaled_norm(system_.sources());
+    system_.residual(system_.sources(), x, residual_);
+    double reached = system_.scaled_norm(residual_);
+    while (reached > target && report.iterations < options.max_iterations) {
+      ++report.iterations;
+      factor_.apply(residual_, correction_);
+      for (std::size_t i = 0; i < x.size(); ++i) {
+        x[i] += correction_[i];
+      }
+      system_.residual(system_.sources(), x, residual_);
+      const double next = system_.scaled_norm(residual_);
+      if (!(next < reached)) {
+        for (std::size_t i = 0; i < x.size(); ++i) {
+          x[i] -= correction_[i];
+        }
+        break;
+      }
+      const bool halved = next <= 0.5 * reached;
+      reached = next;
+      if (!halved) {
+        break;
+      }
+    }
+    report.stop = solve_stop::direct;
+    system_.finish(x, report);
+    if (report.ok() && !(report.backward_error <= options.tolerance)) {
+      report.reason = solve_status::not_converged;
+    }
+    return report;
+  }
+
+  [[nodiscard]] const pressure_system& system() const noexcept { return system_; }
+  [[nodiscard]] const Factor& factor() const noexcept { return factor_; }
+  [[nodiscard]] Factor& factor() noexcept { return factor_; }
+
+ private:
+  pressure_system system_;
+  Factor factor_;
+  bool ready_ = false;
+  std::vector<double> residual_;
+  std::vector<double> correction_;
+};
+
+}  // namespace tetrapore::inline TETRAPORE_ABI
