@@ -10,8 +10,6 @@
 #include "support/drainage_results.hpp"
 #include "support/stopwatch.hpp"
 
-#include "tetrapore/io/read_packing.hpp"
-#include "tetrapore/packing/check.hpp"
 #include "tetrapore/tessellation/cgal.hpp"
 
 #include <cstdio>
@@ -27,35 +25,19 @@ const std::filesystem::path shipped = std::filesystem::path(__FILE__).parent_pat
 
 // Step 1: the grains, and the box that holds them. Nothing that is wrong in the file gets past here.
 tp::packing read_grains(const drainage_job& job) {
-  auto [packing, report] = tp::io::read_packing(job.packing, {.scale = job.scale, .periodic = job.periodic});
-  std::fprintf(stderr, "read %zu grains from %s (%s)\n", packing.grains.size(), report.source.c_str(),
-               describe(report.format));
-  for (const std::string& warning : report.warnings) {
-    std::fprintf(stderr, "warning: %s\n", warning.c_str());
-  }
-  if (!packing.bounds && job.walls && !packing.grains.empty()) {
-    packing.bounds = support::tight_box(packing.grains);
-    std::fprintf(stderr,
-                 "the file names no box: walls touch the outermost grains (--no-walls for the hull of the centres)\n");
-  }
-  tp::check(packing, job.walls);
+  tp::packing packing = support::read_grains(job);
   for (const auto& [option, f] : {std::pair{"--inlet", job.inlet}, std::pair{"--outlet", job.outlet}}) {
     if (packing.periodic[axis_of(f)]) {
       support::refuse(option, describe(f), "a face across which the packing does not repeat (see --periodic)");
     }
   }
-  support::report_protruding(packing, job.walls);
   return packing;
 }
 
 // Step 2: pores and throats, the dual of the power diagram of the spheres.
 tp::tessellation triangulate(const tp::packing& packing, const drainage_job& job) {
   tp::tessellation mesh = tp::cgal_triangulation{}(packing.grains, domain_of(packing, job.walls));
-  std::fprintf(stderr, "%zu pores, %zu throats\n", mesh.net.pore_count(), mesh.net.throat_count());
-  for (const tp::hidden_grain& h : mesh.report.hidden) {
-    std::fprintf(stderr, "warning: grain %zu is no vertex of the network: it lies inside %s\n", h.grain.index(),
-                 h.twin.valid() ? ("its twin, grain " + std::to_string(h.twin.index())).c_str() : "others");
-  }
+  support::report_mesh(mesh);
   return mesh;
 }
 

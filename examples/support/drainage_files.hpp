@@ -141,7 +141,7 @@ inline void plot_retention(const std::filesystem::path& path, const tp::retentio
     interior.y.push_back(p.pressure / unit);
   }
   plot p;
-  p.title = "Primary drainage of " + job.packing.filename().string();
+  p.title = "Primary drainage of " + job.path.filename().string();
   p.subtitle = std::to_string(s.grains) + " grains of mean radius " + rounded(1000 * s.mean_radius) +
                " mm, σ = " + rounded(job.surface_tension) + " N/m, θ = " + rounded(job.contact_angle) +
                "°, gas enters at " + describe(job.inlet);

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "tetrapore/core/error.hpp"
-#include "tetrapore/core/ids.hpp"
+#include "support/grains.hpp"
+#include "support/options.hpp"
 
 #include <CLI/CLI.hpp>
 
-#include <array>
-#include <charconv>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
@@ -19,69 +16,17 @@
 
 namespace support {
 
-struct drainage_job {
-  std::filesystem::path packing;
+struct drainage_job : grain_source {
   double surface_tension = 0.072;  ///< [N/m]
   double contact_angle = 0;        ///< [degrees]
   std::string entry = "msp";
   std::string gap_limited = "lost_arc";
   tetrapore::face inlet = tetrapore::face::y_max;
   tetrapore::face outlet = tetrapore::face::y_min;
-  std::optional<std::array<bool, 3>> periodic;  ///< axes; none: as the file says
-  bool walls = true;
   bool trapping = true;
-  double scale = 1;               ///< metres per unit of the file
   std::optional<double> density;  ///< difference of the two fluids [kg/m³]
   std::filesystem::path out = "primary_drainage_out";
 };
-
-[[noreturn]] inline void refuse(const std::string& option, const std::string& found, const std::string& expected) {
-  throw tetrapore::parameter_error(option, "\"" + found + "\"", expected);
-}
-
-/// The number that an option gives, inside a range; `expected` says which.
-template <class Accepts>
-[[nodiscard]] double number_of(const std::string& option, const std::string& text, const Accepts& accepts,
-                               const std::string& expected) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value) || !accepts(value)) {
-    refuse(option, text, expected);
-  }
-  return value;
-}
-
-[[nodiscard]] inline tetrapore::face face_of(const std::string& option, const std::string& text) {
-  for (const auto f : tetrapore::all_faces) {
-    if (text == describe(f)) {
-      return f;
-    }
-  }
-  refuse(option, text, "one of x_min, x_max, y_min, y_max, z_min, z_max");
-}
-
-[[nodiscard]] inline std::array<bool, 3> axes_of(const std::string& option, const std::string& text) {
-  std::array<bool, 3> axes{};
-  for (const char c : text) {
-    if (c < 'x' || c > 'z' || axes[static_cast<std::size_t>(c - 'x')]) {
-      refuse(option, text, "letters among x, y, z, each once");
-    }
-    axes[static_cast<std::size_t>(c - 'x')] = true;
-  }
-  return axes;
-}
-
-[[nodiscard]] inline std::string choice_of(const std::string& option, const std::string& text,
-                                           std::initializer_list<const char*> choices) {
-  std::string all;
-  for (const char* c : choices) {
-    if (text == c) {
-      return text;
-    }
-    all += (all.empty() ? "" : ", ") + std::string(c);
-  }
-  refuse(option, text, "one of " + all);
-}
 
 /// Reads the command line; empty when only help was asked for, which is then printed.
 /// \throw tetrapore::parameter_error  names the option, what it was given and what it takes
@@ -129,7 +74,7 @@ template <class Accepts>
   }
 
   const auto positive = [](double x) { return x > 0; };
-  job.packing = packing;
+  job.path = packing;
   job.surface_tension = number_of("--surface-tension", tension, positive, "a number above 0 [N/m]");
   job.contact_angle = number_of(
       "--contact-angle", angle, [](double x) { return x >= 0 && x < 90; }, "a number from 0 to below 90 [degrees]");
@@ -150,11 +95,7 @@ template <class Accepts>
     job.density = number_of(
         "--density", density, [](double x) { return x >= 0; }, "a number, not negative [kg/m3]");
   }
-  job.out = out;
-  std::error_code ignored;
-  if (out.empty() || (std::filesystem::exists(job.out, ignored) && !std::filesystem::is_directory(job.out, ignored))) {
-    refuse("--out", out, "a folder, or a name that is free for one");
-  }
+  job.out = folder_of("--out", out);
   return job;
 }
 

@@ -26,45 +26,7 @@
 
 namespace support {
 
-namespace tp = tetrapore;
 inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-// the packing ---------------------------------------------------------------------------------------------------------
-
-/// The smallest box that holds the grains whole.
-[[nodiscard]] inline tp::box tight_box(std::span<const tp::sphere<double>> grains) {
-  constexpr double far = std::numeric_limits<double>::infinity();
-  tp::box b{{far, far, far}, {-far, -far, -far}};
-  for (const auto& g : grains) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      b.lo[k] = std::min(b.lo[k], g.centre[k] - g.radius);
-      b.hi[k] = std::max(b.hi[k], g.centre[k] + g.radius);
-    }
-  }
-  return b;
-}
-
-/// Says how many grains reach through a wall: the part outside is cut off, exactly.
-inline void report_protruding(const tp::packing& packing, bool walls) {
-  std::size_t count = 0;
-  double most = 0;
-  for (const auto& g : packing.grains) {
-    double deepest = 0;
-    for (std::size_t k = 0; k < 3 && packing.bounds && walls; ++k) {
-      if (!packing.periodic[k]) {
-        deepest = std::max({deepest, g.radius - (g.centre[k] - packing.bounds->lo[k]),
-                            g.radius - (packing.bounds->hi[k] - g.centre[k])});
-      }
-    }
-    // A box and a radius that were rounded to nine digits meet to nine digits: that is touching, not reaching through.
-    count += deepest > 1e-8 * g.radius ? 1 : 0;
-    most = std::max(most, deepest / g.radius);
-  }
-  if (count > 0) {
-    std::fprintf(stderr, "%zu grains reach through a wall, by up to %.3g of their radius: what is outside is clipped\n",
-                 count, most);
-  }
-}
 
 // sizes ---------------------------------------------------------------------------------------------------------------
 
