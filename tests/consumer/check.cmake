@@ -6,7 +6,8 @@
 # case may not see is hidden from find_package.
 
 set(prefix "${scratch}/prefix")
-set(hidden -D CMAKE_DISABLE_FIND_PACKAGE_CGAL=TRUE -D CMAKE_DISABLE_FIND_PACKAGE_Eigen3=TRUE)
+set(hidden -D CMAKE_DISABLE_FIND_PACKAGE_CGAL=TRUE -D CMAKE_DISABLE_FIND_PACKAGE_Eigen3=TRUE
+  -D CMAKE_DISABLE_FIND_PACKAGE_CHOLMOD=TRUE)
 set(installed -D CMAKE_PREFIX_PATH=${prefix} -D way=find_package)
 set(in_tree -D TETRAPORE_SOURCE=${source})
 
@@ -56,6 +57,13 @@ elseif(case STREQUAL "eigen")
   consume(${installed} -D components=eigen)
 elseif(case STREQUAL "eigen_absent")
   refuse("component 'eigen' needs Eigen3.*apt-get install libeigen3-dev" ${installed} ${hidden} -D components=eigen)
+elseif(case STREQUAL "cholmod")
+  consume(${installed} -D components=cholmod)
+elseif(case STREQUAL "cholmod_absent")
+  refuse("component 'cholmod' needs CHOLMOD.*apt-get install libsuitesparse-dev libopenblas-dev"
+    ${installed} ${hidden} -D components=cholmod)
+elseif(case STREQUAL "subdirectory_cholmod")
+  consume(${in_tree} -D way=add_subdirectory -D components=cholmod)
 elseif(case STREQUAL "unknown_component")
   refuse("there is no component 'alchemy'" ${installed} -D components=alchemy)
 elseif(case STREQUAL "subdirectory")

@@ -61,7 +61,9 @@ class direct_solver {
     if (!report.ok()) {
       return report;
     }
-    factor_.apply(system_.sources(), x);
+    if (!options.warm) {
+      factor_.apply(system_.sources(), x);
+    }
     residual_.resize(x.size());
     correction_.resize(x.size());
     const double target = options.tolerance * system_.scaled_norm(system_.sources());
@@ -95,6 +97,8 @@ class direct_solver {
     return report;
   }
 
+  /// Whether there is a factor to solve with.
+  [[nodiscard]] bool ready() const noexcept { return ready_; }
   [[nodiscard]] const pressure_system& system() const noexcept { return system_; }
   [[nodiscard]] const Factor& factor() const noexcept { return factor_; }
   [[nodiscard]] Factor& factor() noexcept { return factor_; }
