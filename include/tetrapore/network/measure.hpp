@@ -116,43 +116,54 @@ inline void follow_ball(const network& net, pore_id p, std::size_t k, intruder_l
   }
 }
 
-/// Gives cells without a power centre of their own that of the nearest neighbour that has one.
-inline void spread_centres(network& net, std::vector<pore_id> flat) {
-  std::vector<bool> missing(net.pore_count(), false);
-  for (const pore_id p : flat) {
-    missing[p.index()] = true;
+/// Pores that lack something take it from a neighbour that has it: those beside such a neighbour first, then those
+/// beside them, each through the first throat that offers it.
+/// \param take  called as take(p, slot), slot of the throat that pore p takes through
+/// \return the first of the pores that no throat connects with one that has it; invalid when there is none
+template <class Take>
+[[nodiscard]] pore_id spread(const network& net, std::vector<pore_id> lacking, const Take& take) {
+  std::vector<bool> lacks(net.pore_count(), false);
+  for (const pore_id p : lacking) {
+    lacks[p.index()] = true;
   }
-  while (!flat.empty()) {
-    std::vector<std::pair<pore_id, vec3<double>>> found;
+  while (!lacking.empty()) {
+    std::vector<std::pair<pore_id, std::size_t>> found;
     std::vector<pore_id> rest;
-    for (const pore_id p : flat) {
-      bool done = false;
-      for (std::size_t slot = 0; slot < 4 && !done; ++slot) {
-        const throat_id t = net.throats(p)[slot];
-        if (!t.valid() || net.is_boundary(t)) {
-          continue;
-        }
-        const bool first = net.pores(t)[0] == p && net.slot(t, 0) == slot;
-        const pore_id other = net.pores(t)[first ? 1 : 0];
-        if (!missing[other.index()]) {
-          const vec3<double> shift = net.region().shift(net.shift(t));
-          found.emplace_back(p, first ? net.power_centre(other) + shift : net.power_centre(other) - shift);
-          done = true;
-        }
-      }
-      if (!done) {
+    for (const pore_id p : lacking) {
+      const auto& throats = net.throats(p);
+      const auto offer = std::find_if(throats.begin(), throats.end(), [&](throat_id t) {
+        return t.valid() && !net.is_boundary(t) && !lacks[net.across(p, t).index()];
+      });
+      if (offer != throats.end()) {
+        found.emplace_back(p, static_cast<std::size_t>(offer - throats.begin()));
+      } else {
         rest.push_back(p);
       }
     }
     if (found.empty()) {
-      throw packing_error("pore " + std::to_string(rest.front().index()), "a flat cell with flat neighbours only",
-                          "grains that are not coplanar");
+      return rest.front();
     }
-    for (const auto& [p, centre] : found) {
-      net.mutable_arrays().power_centres[p.index()] = centre;
-      missing[p.index()] = false;
+    for (const auto& [p, slot] : found) {
+      take(p, slot);
+      lacks[p.index()] = false;
     }
-    flat = std::move(rest);
+    lacking = std::move(rest);
+  }
+  return {};
+}
+
+/// Gives cells without a power centre of their own that of the nearest neighbour that has one.
+inline void spread_centres(network& net, std::vector<pore_id> flat) {
+  const pore_id lost = spread(net, std::move(flat), [&net](pore_id p, std::size_t slot) {
+    const throat_id t = net.throats(p)[slot];
+    const bool first = net.pores(t)[0] == p;
+    const vec3<double> shift = net.region().shift(net.shift(t));
+    const vec3<double>& centre = net.power_centre(net.across(p, t));
+    net.mutable_arrays().power_centres[p.index()] = first ? centre + shift : centre - shift;
+  });
+  if (lost.valid()) {
+    throw packing_error("pore " + std::to_string(lost.index()), "a flat cell with flat neighbours only",
+                        "grains that are not coplanar");
   }
 }
 

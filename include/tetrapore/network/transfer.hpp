@@ -19,35 +19,57 @@
 
 namespace tetrapore::inline TETRAPORE_ABI {
 
-/// Shares of the pores of one epoch in the pores of the next: the void volume that an old and a new cell have in
+/// How the pores of one epoch pass on to those of the next, by the void volume that an old and a new cell have in
 /// common, both at the same place of the grains.
 class transfer {
  public:
-  /// What one new pore takes over from one old pore.
+  /// One pore and what it counts for.
   struct share {
-    pore_id to;
-    double weight;  ///< share of the old pore that the new one takes over; those of one old pore sum to 1
-    double volume;  ///< void volume in common [m³]
+    pore_id pore;
+    double weight;
   };
+  /// Shares per pore; of every pore at least one, their weights sum to 1.
+  using table = std::vector<std::vector<share>>;
 
-  transfer(std::uint64_t from, std::uint64_t to, std::size_t new_pores, std::vector<std::size_t> offsets,
-           std::vector<share> shares)
-      : from_(from), to_(to), new_pores_(new_pores), offsets_(std::move(offsets)), shares_(std::move(shares)) {}
+  /// \param given  per old pore: the new pores that take over what it holds
+  /// \param read   per new pore: the old pores whose level it takes the mean of
+  transfer(std::uint64_t from, std::uint64_t to, const table& given, const table& read)
+      : from_(from), to_(to), given_(given), read_(read) {}
 
   [[nodiscard]] std::uint64_t from_epoch() const noexcept { return from_; }
   [[nodiscard]] std::uint64_t to_epoch() const noexcept { return to_; }
-  [[nodiscard]] std::size_t old_pore_count() const noexcept { return offsets_.size() - 1; }
-  [[nodiscard]] std::size_t new_pore_count() const noexcept { return new_pores_; }
-  [[nodiscard]] std::span<const share> of(pore_id old) const noexcept {
-    return {shares_.data() + offsets_[old.index()], offsets_[old.index() + 1] - offsets_[old.index()]};
-  }
+  [[nodiscard]] std::size_t old_pore_count() const noexcept { return given_.size(); }
+  [[nodiscard]] std::size_t new_pore_count() const noexcept { return read_.size(); }
+  /// The new pores that take over what an old one holds, with their shares of it.
+  [[nodiscard]] std::span<const share> of(pore_id old) const noexcept { return given_[old]; }
+  /// The old pores that a new one covers, with their shares of what it covers.
+  [[nodiscard]] std::span<const share> covered_by(pore_id made) const noexcept { return read_[made]; }
 
  private:
+  class rows {
+   public:
+    explicit rows(const table& per_pore) {
+      offsets_.reserve(per_pore.size() + 1);
+      offsets_.push_back(0);
+      for (const auto& row : per_pore) {
+        shares_.insert(shares_.end(), row.begin(), row.end());
+        offsets_.push_back(shares_.size());
+      }
+    }
+    [[nodiscard]] std::size_t size() const noexcept { return offsets_.size() - 1; }
+    [[nodiscard]] std::span<const share> operator[](pore_id p) const noexcept {
+      return {shares_.data() + offsets_[p.index()], offsets_[p.index() + 1] - offsets_[p.index()]};
+    }
+
+   private:
+    std::vector<std::size_t> offsets_;
+    std::vector<share> shares_;
+  };
+
   std::uint64_t from_;
   std::uint64_t to_;
-  std::size_t new_pores_;
-  std::vector<std::size_t> offsets_;
-  std::vector<share> shares_;
+  rows given_;
+  rows read_;
 };
 
 /// Takes a field to the epoch of the rebuilt network. An extensive quantity keeps its sum to rounding, and where it
@@ -58,30 +80,17 @@ void carry(const transfer& way, field<Q>& f) {
   TETRAPORE_EXPECTS(f.epoch() == way.from_epoch() && f.size() == way.old_pore_count(),
                     "a field is carried from the epoch it belongs to");
   std::vector<double> values(way.new_pore_count(), 0.0);
-  const auto each_share = [&](const auto& take) {
+  if constexpr (Q == quantity::extensive) {
     for (std::size_t i = 0; i < way.old_pore_count(); ++i) {
       for (const auto& s : way.of(pore_id(i))) {
-        take(s, f[pore_id(i)]);
+        values[s.pore.index()] += s.weight * f[pore_id(i)];
       }
     }
-  };
-  if constexpr (Q == quantity::extensive) {
-    each_share([&](const transfer::share& s, double value) { values[s.to.index()] += s.weight * value; });
   } else {
-    std::vector<double> volume(way.new_pore_count(), 0.0);
-    std::vector<std::size_t> givers(way.new_pore_count(), 0);  // of cells that have no void in common with any old one
-    each_share([&](const transfer::share& s, double value) {
-      values[s.to.index()] += s.volume * value;
-      volume[s.to.index()] += s.volume;
-    });
-    each_share([&](const transfer::share& s, double value) {
-      if (!(volume[s.to.index()] > 0.0)) {
-        values[s.to.index()] += value;
-        ++givers[s.to.index()];
+    for (std::size_t j = 0; j < way.new_pore_count(); ++j) {
+      for (const auto& s : way.covered_by(pore_id(j))) {
+        values[j] += s.weight * f[s.pore];
       }
-    });
-    for (std::size_t j = 0; j < values.size(); ++j) {
-      values[j] /= givers[j] > 0 ? static_cast<double>(givers[j]) : volume[j];
     }
   }
   f = field<Q>(std::move(values), way.to_epoch());
@@ -255,10 +264,16 @@ struct changed_cells {
   }
 };
 
-/// Shares of a changed old cell in the changed new ones.
-[[nodiscard]] inline std::vector<transfer::share> shares_of(const domain& region, const changed_cells& before,
-                                                            std::size_t i, const changed_cells& after,
-                                                            std::span<const std::uint32_t> candidates) {
+/// Size of a cell: the longest side of its box.
+[[nodiscard]] inline double size_of(const bounds3& b) noexcept {
+  const vec3<double> s = b.hi - b.lo;
+  return std::max({s.x, s.y, s.z});
+}
+
+/// The void volumes [m³] that a changed old cell has in common with the changed new ones.
+[[nodiscard]] inline std::vector<transfer::share> common_voids(const domain& region, const changed_cells& before,
+                                                               std::size_t i, const changed_cells& after,
+                                                               std::span<const std::uint32_t> candidates) {
   std::vector<transfer::share> row;
   std::vector<sphere<double>> balls;
   for (const std::uint32_t j : candidates) {
@@ -295,46 +310,39 @@ struct changed_cells {
                                 std::to_string(after.pores[j].index()) + " after a rebuild",
                             describe(common.reason), "cells that a few overlapping grains cut");
       }
-      if (common.value > 0.0) {
-        row.push_back({after.pores[j], common.value, common.value});
+      // What is left of a void that grains fill is the rounding of void_overlap, with either sign.
+      const double size = std::min(size_of(before.boxes[i]), size_of(after.boxes[j]));
+      if (common.value > 8 * epsilon<double> * size * size * size) {
+        row.push_back({after.pores[j], common.value});
       }
     });
   }
   return row;
 }
 
-/// A new cell that no old one has void in common with (flat, or filled by grains) takes nothing over, but reads its
-/// level where a neighbour does.
-inline void give_each_a_share(const network& after, std::vector<std::vector<transfer::share>>& rows) {
-  constexpr std::size_t none = static_cast<std::size_t>(-1);
-  std::vector<std::size_t> giver(after.pore_count(), none);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    for (const auto& s : rows[i]) {
-      giver[s.to.index()] = i;
+/// Makes the weights of every pore sum to 1. A cell without any void in common (flat, or filled by grains) does what
+/// its neighbour does.
+inline void complete(const network& net, transfer::table& shares, const char* when) {
+  std::vector<pore_id> without;
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    double sum = 0.0;
+    for (const auto& s : shares[i]) {
+      sum += s.weight;
+    }
+    for (auto& s : shares[i]) {
+      s.weight /= sum;
+    }
+    if (shares[i].empty()) {
+      without.emplace_back(i);
     }
   }
-  for (bool missing = true; missing;) {
-    missing = false;
-    std::vector<std::pair<std::size_t, std::size_t>> found;
-    for (std::size_t j = 0; j < giver.size(); ++j) {
-      if (giver[j] != none) {
-        continue;
-      }
-      missing = true;
-      for (const throat_id t : after.throats(pore_id(j))) {
-        if (t.valid() && !after.is_boundary(t) && giver[after.across(pore_id(j), t).index()] != none) {
-          found.emplace_back(j, giver[after.across(pore_id(j), t).index()]);
-          break;
-        }
-      }
-    }
-    if (missing && found.empty()) {
-      throw packing_error("a rebuild", "two networks without a cell in common", "the same grains in the same region");
-    }
-    for (const auto& [j, i] : found) {
-      giver[j] = i;
-      rows[i].push_back({pore_id(j), 0.0, 0.0});
-    }
+  const pore_id lost = spread(net, std::move(without), [&](pore_id p, std::size_t slot) {
+    shares[p.index()] = shares[net.across(p, net.throats(p)[slot]).index()];
+  });
+  if (lost.valid()) {
+    throw packing_error("pore " + std::to_string(lost.index()) + when,
+                        "a cell that has no void in common with the other network, nor have those connected to it",
+                        "the same grains in the same region, with void between them");
   }
 }
 
@@ -356,8 +364,11 @@ inline void give_each_a_share(const network& after, std::vector<std::vector<tran
   std::vector<pore_id> gone;
   for (std::size_t i = 0; i < before.pore_count(); ++i) {
     const detail::site_key key = detail::key_of(before, pore_id(i));
-    const auto at = std::lower_bound(kept.begin(), kept.end(), std::pair{key, std::uint32_t{0}});
-    if (at != kept.end() && at->first == key && !found[at->second]) {
+    auto at = std::lower_bound(kept.begin(), kept.end(), std::pair{key, std::uint32_t{0}});
+    while (at != kept.end() && at->first == key && found[at->second]) {
+      ++at;  // flat cells on each other may have the same vertices
+    }
+    if (at != kept.end() && at->first == key) {
       same[i] = at->second;
       found[at->second] = true;
     } else {
@@ -371,7 +382,14 @@ inline void give_each_a_share(const network& after, std::vector<std::vector<tran
     }
   }
 
-  std::vector<std::vector<transfer::share>> rows(before.pore_count());
+  transfer::table given(before.pore_count());
+  transfer::table read(after.pore_count());
+  for (std::size_t i = 0; i < before.pore_count(); ++i) {
+    if (same[i] != none) {
+      given[i] = {{pore_id(same[i]), 1.0}};
+      read[same[i]] = {{pore_id(i), 1.0}};
+    }
+  }
   if (!gone.empty() && !fresh.empty()) {
     const detail::changed_cells old_cells(before, std::move(gone));
     const detail::changed_cells new_cells(after, std::move(fresh));
@@ -395,64 +413,17 @@ inline void give_each_a_share(const network& after, std::vector<std::vector<tran
     std::vector<std::uint32_t> candidates;
     for (std::size_t i = 0; i < old_cells.pores.size(); ++i) {
       grid.find(old_cells.boxes[i], candidates);
-      rows[old_cells.pores[i].index()] = detail::shares_of(after.region(), old_cells, i, new_cells, candidates);
+      const pore_id old = old_cells.pores[i];
+      given[old.index()] = detail::common_voids(after.region(), old_cells, i, new_cells, candidates);
+      for (const auto& s : given[old.index()]) {
+        read[s.pore.index()].push_back({old, s.weight});
+      }
     }
   }
 
-  // A cell without any void in common (flat, or filled by grains) hands on where its neighbours hand on.
-  for (std::size_t i = 0; i < before.pore_count(); ++i) {
-    if (same[i] != none) {
-      rows[i] = {{pore_id(same[i]), 1.0, after.void_volume(pore_id(same[i]))}};
-    }
-  }
-  for (bool missing = true, progress = true; missing;) {
-    missing = false;
-    progress = false;
-    std::vector<std::pair<std::size_t, std::vector<transfer::share>>> filled;
-    for (std::size_t i = 0; i < before.pore_count(); ++i) {
-      if (!rows[i].empty()) {
-        continue;
-      }
-      missing = true;
-      for (const throat_id t : before.throats(pore_id(i))) {
-        if (t.valid() && !before.is_boundary(t)) {
-          const auto& neighbour = rows[before.across(pore_id(i), t).index()];
-          if (!neighbour.empty()) {
-            filled.emplace_back(i, neighbour);
-            progress = true;
-            break;
-          }
-        }
-      }
-    }
-    if (missing && !progress) {
-      throw packing_error("a rebuild", "two networks without a cell in common", "the same grains in the same region");
-    }
-    for (auto& [i, row] : filled) {
-      for (auto& s : row) {
-        s.volume = 0.0;
-      }
-      rows[i] = std::move(row);
-    }
-  }
-
-  detail::give_each_a_share(after, rows);
-
-  std::vector<std::size_t> offsets{0};
-  std::vector<transfer::share> shares;
-  offsets.reserve(before.pore_count() + 1);
-  for (auto& row : rows) {
-    double sum = 0.0;
-    for (const auto& s : row) {
-      sum += s.weight;
-    }
-    for (auto& s : row) {
-      s.weight /= sum;
-      shares.push_back(s);
-    }
-    offsets.push_back(shares.size());
-  }
-  return {before.epoch(), after.epoch(), after.pore_count(), std::move(offsets), std::move(shares)};
+  detail::complete(before, given, " before a rebuild");
+  detail::complete(after, read, " after a rebuild");
+  return {before.epoch(), after.epoch(), given, read};
 }
 
 /// Triangulates anew: the network follows the grains, then becomes that of their new triangulation, one epoch later.

@@ -82,6 +82,6 @@ TEST_CASE("a rebuild of grains that did not move hands every pore over whole") {
   for (std::size_t i = 0; i < before.pore_count(); ++i) {
     REQUIRE(way.of(pore_id(i)).size() == 1);
     CHECK(way.of(pore_id(i))[0].weight == 1.0);
-    CHECK(before.vertices(pore_id(i)) == net.vertices(way.of(pore_id(i))[0].to));
+    CHECK(before.vertices(pore_id(i)) == net.vertices(way.of(pore_id(i))[0].pore));
   }
 }
