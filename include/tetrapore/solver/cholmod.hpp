@@ -76,8 +76,8 @@ class cholmod_owned {
 /// What a cholmod_factorization is asked for.
 struct cholmod_settings {
   /// Up to so many conductances and excesses that differ from those of the factor at hand are taken into it by rank-1
-  /// updates and downdates; with more, or with 0, factorize starts anew. An updated factor is no longer that of the same
-  /// input to the last bit, and is kept by columns, without the speed of blocks.
+  /// updates and downdates; with more, or with 0, factorize starts anew. An updated factor differs from a new one in its
+  /// last bits, and is kept by columns, without the speed of blocks.
   std::size_t update_limit = 0;
   /// After so many updates the factor is made anew, and also where the diagonal of a node falls below 1e-7 of the
   /// largest that the factor has held: rounding stays behind.

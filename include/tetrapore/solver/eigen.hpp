@@ -1,49 +1,319 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "tetrapore/network/network.hpp"
+#include "tetrapore/solver/direct.hpp"
+#include "tetrapore/solver/hierarchy.hpp"
+#include "tetrapore/solver/lower_triangle.hpp"
 
+#include <Eigen/IterativeLinearSolvers>
+#include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <memory>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 /// \file
-/// A network as a sparse matrix of Eigen, for any solver that takes one. The only header that sees Eigen (MPL-2.0).
+/// Eigen's solvers of pressure systems, our V-cycle as a preconditioner of Eigen, and a system as a matrix of Eigen for
+/// any solver that takes one. The only header that sees Eigen (MPL-2.0).
 
 namespace tetrapore::inline TETRAPORE_ABI {
 
-/// The matrix of Σ_j w_ij (x_i − x_j) + s_i x_i over the pores of a network.
-/// \param weights  one per throat, at least 0; those of boundary throats are left out
-/// \param excess   one per pore, at least 0: what ties a pore to a fixed level
-/// \par Accuracy  each diagonal is a sum that rounds: where weights differ by a factor c within a row, the small ones
-/// lose their digits beyond 1/(c ε). An oracle for moderate contrast
-/// \par Source  Chareyre et al. 2017, Eq. (1)
-[[nodiscard]] inline Eigen::SparseMatrix<double> laplacian(const network& net, std::span<const double> weights,
-                                                           std::span<const double> excess) {
-  TETRAPORE_EXPECTS(weights.size() == net.throat_count() && excess.size() == net.pore_count(),
-                    "a weight for each throat, an excess for each pore");
-  using entry = Eigen::Triplet<double, int>;
-  std::vector<entry> entries;
-  entries.reserve(net.pore_count() + 4 * net.throat_count());
-  for (std::size_t i = 0; i < excess.size(); ++i) {
-    entries.emplace_back(static_cast<int>(i), static_cast<int>(i), excess[i]);
-  }
-  for (std::size_t t = 0; t < weights.size(); ++t) {
-    if (net.is_boundary(throat_id(t))) {
-      continue;
-    }
-    const auto i = static_cast<int>(net.pores(throat_id(t))[0].index());
-    const auto j = static_cast<int>(net.pores(throat_id(t))[1].index());
-    entries.emplace_back(i, i, weights[t]);
-    entries.emplace_back(j, j, weights[t]);
-    entries.emplace_back(i, j, -weights[t]);
-    entries.emplace_back(j, i, -weights[t]);
-  }
-  const auto n = static_cast<Eigen::Index>(net.pore_count());
+namespace detail {
+
+/// An Eigen matrix with the pattern of a lower triangle.
+[[nodiscard]] inline Eigen::SparseMatrix<double> matrix_with(const lower_triangle<int>& pattern) {
+  const auto n = static_cast<Eigen::Index>(pattern.size());
   Eigen::SparseMatrix<double> matrix(n, n);
-  matrix.setFromTriplets(entries.begin(), entries.end());
+  matrix.resizeNonZeros(static_cast<Eigen::Index>(pattern.rows().size()));
+  std::copy(pattern.offsets().begin(), pattern.offsets().end(), matrix.outerIndexPtr());
+  std::copy(pattern.rows().begin(), pattern.rows().end(), matrix.innerIndexPtr());
   return matrix;
 }
+
+[[nodiscard]] inline std::span<double> values_of(Eigen::SparseMatrix<double>& matrix) noexcept {
+  return {matrix.valuePtr(), static_cast<std::size_t>(matrix.nonZeros())};
+}
+
+[[nodiscard]] inline Eigen::Map<const Eigen::VectorXd> as_eigen(std::span<const double> v) noexcept {
+  return {v.data(), static_cast<Eigen::Index>(v.size())};
+}
+[[nodiscard]] inline Eigen::Map<Eigen::VectorXd> as_eigen(std::span<double> v) noexcept {
+  return {v.data(), static_cast<Eigen::Index>(v.size())};
+}
+
+}  // namespace detail
+
+/// The matrix of Σ_j w_ij (x_i − x_j) + s_i x_i on a graph, both triangles.
+/// \param weights  one per edge, at least 0
+/// \param excess   one per node, at least 0: what ties a node to a fixed level
+/// \par Accuracy  each diagonal is a sum that rounds: where weights differ by a factor c within a row, the small ones
+/// lose their digits beyond 1/(c ε)
+/// \par Source  Chareyre et al. 2017, Eq. (1)
+[[nodiscard]] inline Eigen::SparseMatrix<double> laplacian(const network_graph& graph, std::span<const double> weights,
+                                                           std::span<const double> excess) {
+  TETRAPORE_EXPECTS(weights.size() == graph.edge_count() && excess.size() == graph.node_count(),
+                    "a weight for each edge, an excess for each node");
+  const lower_triangle<int> triangle(graph);
+  Eigen::SparseMatrix<double> lower = detail::matrix_with(triangle);
+  triangle.fill(graph, weights, excess, detail::values_of(lower));
+  return lower.selfadjointView<Eigen::Lower>();
+}
+
+/// Eigen's SimplicialLDLT as a pressure_factor; order and pattern are kept from analyze on.
+/// \par Accuracy  the matrix is assembled: see lower_triangle. direct_solver refines on w and s
+class eigen_ldlt_factorization {
+ public:
+  void analyze(const network_graph& graph) {
+    triangle_ = lower_triangle<int>(graph);
+    matrix_ = detail::matrix_with(triangle_);
+    std::fill_n(matrix_.valuePtr(), matrix_.nonZeros(), 1.0);
+    if (matrix_.rows() > 0) {
+      ldlt_->analyzePattern(matrix_);
+    }
+  }
+  /// False where a pivot is not positive.
+  [[nodiscard]] bool factorize(const network_graph& graph, std::span<const double> weights,
+                               std::span<const double> excess) {
+    triangle_.fill(graph, weights, excess, detail::values_of(matrix_));
+    if (matrix_.rows() == 0) {
+      return true;
+    }
+    ldlt_->factorize(matrix_);
+    return ldlt_->info() == Eigen::Success && (ldlt_->vectorD().array() > 0).all();
+  }
+  void apply(std::span<const double> b, std::span<double> x) const {
+    if (matrix_.rows() > 0) {
+      detail::as_eigen(x) = ldlt_->solve(detail::as_eigen(b));
+    }
+  }
+
+ private:
+  using ldlt = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>;
+
+  lower_triangle<int> triangle_;
+  Eigen::SparseMatrix<double> matrix_;
+  std::unique_ptr<ldlt> ldlt_ = std::make_unique<ldlt>();  // Eigen's solvers do not move
+};
+static_assert(pressure_factor<eigen_ldlt_factorization>);
+
+using eigen_ldlt_solver = direct_solver<eigen_ldlt_factorization>;
+static_assert(network_solver<eigen_ldlt_solver>);
+
+/// One V-cycle of the aggregation hierarchy, symmetric and positive definite, as a preconditioner of Eigen:
+/// \code
+/// Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper, vcycle_preconditioner<>> cg;
+/// cg.preconditioner().assign(graph, w, s);  // from conductances; without this line, from the matrix
+/// cg.compute(laplacian(graph, w, s));
+/// \endcode
+/// \tparam Real  number in which the hierarchy is kept
+template <std::floating_point Real = float>
+class vcycle_preconditioner {
+ public:
+  using StorageIndex = int;
+  enum { ColsAtCompileTime = Eigen::Dynamic, MaxColsAtCompileTime = Eigen::Dynamic };
+
+  explicit vcycle_preconditioner(const hierarchy_options& options = {}) : hierarchy_(options) {}
+
+  /// Makes the hierarchy of a graph with conductances and excess; `compute` then keeps it, until `forget`.
+  vcycle_preconditioner& assign(const network_graph& graph, std::span<const double> weights,
+                                std::span<const double> excess) {
+    if (!graph.same_as(graph_)) {
+      hierarchy_.analyze(graph);
+      graph_ = graph;
+    }
+    hierarchy_.factorize(weights, excess);
+    size_ = static_cast<Eigen::Index>(graph.node_count());
+    assigned_ = true;
+    info_ = Eigen::Success;
+    return *this;
+  }
+  void forget() noexcept { assigned_ = false; }
+
+  template <class Matrix>
+  vcycle_preconditioner& analyzePattern(const Matrix&) {
+    return *this;
+  }
+  template <class Matrix>
+  vcycle_preconditioner& factorize(const Matrix& matrix) {
+    return compute(matrix);
+  }
+
+  /// The hierarchy of a symmetric matrix with non-positive entries off a dominant diagonal, unless one was assigned. Its
+  /// excess is what the diagonal exceeds the sum of its row by, and is taken as zero where rounding hides it; info() is
+  /// NumericalIssue where an entry off the diagonal is positive or a diagonal too small.
+  template <class Matrix>
+  vcycle_preconditioner& compute(const Matrix& matrix) {
+    if (assigned_) {
+      if (matrix.rows() != size_) {
+        info_ = Eigen::InvalidInput;
+      }
+      return *this;
+    }
+    const auto n = static_cast<std::size_t>(matrix.rows());
+    std::vector<network_graph::edge> edges;
+    std::vector<double> weights;
+    std::vector<double> diagonal(n, 0.0);
+    std::vector<double> sums(n, 0.0);
+    info_ = Eigen::Success;
+    for (Eigen::Index k = 0; k < matrix.outerSize(); ++k) {
+      for (typename Matrix::InnerIterator entry(matrix, k); entry; ++entry) {
+        const auto i = static_cast<std::uint32_t>(entry.row());
+        const auto j = static_cast<std::uint32_t>(entry.col());
+        if (i == j) {
+          diagonal[i] += entry.value();
+        } else if (i > j) {
+          edges.push_back({i, j});
+          weights.push_back(-entry.value());
+          sums[i] -= entry.value();
+          sums[j] -= entry.value();
+          info_ = entry.value() > 0 ? Eigen::NumericalIssue : info_;
+        }
+      }
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      const double rest = diagonal[i] - sums[i];
+      const double rounding = 1e-12 * diagonal[i];
+      info_ = rest < -rounding ? Eigen::NumericalIssue : info_;
+      sums[i] = rest > rounding ? rest : 0.0;
+    }
+    if (info_ == Eigen::Success) {
+      assign(network_graph(n, std::move(edges)), weights, sums);
+      assigned_ = false;
+    }
+    return *this;
+  }
+
+  template <class Rhs>
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::MatrixBase<Rhs>& b) const {
+    Eigen::VectorXd x(b.rows());
+    const double largest = b.size() > 0 ? b.cwiseAbs().maxCoeff() : 0.0;
+    if (!(largest > 0)) {
+      return x.setZero();
+    }
+    // Powers of two keep the numbers within the range of Real, and change no digit.
+    const double up = std::ldexp(1.0, -std::ilogb(largest));
+    const auto in = hierarchy_.input();
+    for (Eigen::Index i = 0; i < b.rows(); ++i) {
+      in[static_cast<std::size_t>(i)] = static_cast<Real>(b[i] * up);
+    }
+    hierarchy_.cycle();
+    const auto out = hierarchy_.output();
+    const double back = hierarchy_.scale() / up;
+    for (Eigen::Index i = 0; i < b.rows(); ++i) {
+      x[i] = static_cast<double>(out[static_cast<std::size_t>(i)]) * back;
+    }
+    return x;
+  }
+
+  [[nodiscard]] Eigen::ComputationInfo info() const noexcept { return info_; }
+  [[nodiscard]] Eigen::Index rows() const noexcept { return size_; }
+  [[nodiscard]] Eigen::Index cols() const noexcept { return size_; }
+
+ private:
+  mutable aggregation_hierarchy<Real> hierarchy_;  // its vectors are workspace
+  network_graph graph_;
+  Eigen::Index size_ = 0;
+  bool assigned_ = false;
+  Eigen::ComputationInfo info_ = Eigen::InvalidInput;
+};
+
+/// Eigen's conjugate gradients on the assembled matrix, restarted from the residual on w and s until the scaled residual
+/// ‖D^-½ r‖ / ‖D^-½ b‖ is below the tolerance or no longer halves.
+/// \tparam Preconditioner  any of Eigen's: DiagonalPreconditioner<double>, IncompleteCholesky<double>, or our V-cycle.
+///         With the first two a large system needs thousands of iterations: raise options.max_iterations
+template <class Preconditioner = vcycle_preconditioner<>>
+class eigen_cg_solver {
+ public:
+  void analyze(const network_graph& graph) {
+    system_.analyze(graph);
+    triangle_ = lower_triangle<int>(graph);
+    ready_ = false;
+  }
+
+  [[nodiscard]] solve_report factorize(std::span<const double> weights, std::span<const double> excess) {
+    ready_ = false;
+    solve_report report = system_.factorize(weights, excess);
+    if (!report.ok() || system_.size() == 0) {
+      ready_ = report.ok();
+      return report;
+    }
+    const std::vector<double> grounded = system_.grounded_excess();
+    Eigen::SparseMatrix<double> lower = detail::matrix_with(triangle_);
+    triangle_.fill(system_.graph(), system_.weights(), grounded, detail::values_of(lower));
+    matrix_ = lower.selfadjointView<Eigen::Lower>();
+    if constexpr (requires(Preconditioner& p) { p.assign(system_.graph(), system_.weights(), grounded); }) {
+      cg_->preconditioner().assign(system_.graph(), system_.weights(), grounded);
+    }
+    cg_->compute(matrix_);
+    ready_ = cg_->preconditioner().info() == Eigen::Success;
+    report.reason = ready_ ? solve_status::ok : solve_status::factorization_failed;
+    return report;
+  }
+
+  [[nodiscard]] solve_report solve(std::span<const double> b, std::span<double> x, const solve_options& options = {}) {
+    if (!ready_) {
+      return {};
+    }
+    solve_report report = system_.begin(b, x, options);
+    if (!report.ok()) {
+      return report;
+    }
+    if (!options.warm) {
+      std::fill(x.begin(), x.end(), 0.0);
+    }
+    residual_.resize(x.size());
+    const double target = options.tolerance * system_.scaled_norm(system_.sources());
+    system_.residual(system_.sources(), x, residual_);
+    double reached = system_.scaled_norm(residual_);
+    report.stop = solve_stop::backward_error;
+    while (reached > target) {
+      if (report.iterations >= options.max_iterations) {
+        report.stop = solve_stop::max_iterations;
+        break;
+      }
+      cg_->setTolerance(options.tolerance);
+      cg_->setMaxIterations(static_cast<Eigen::Index>(options.max_iterations - report.iterations));
+      const Eigen::VectorXd step = cg_->solve(detail::as_eigen(std::span<const double>(residual_)));
+      report.iterations += static_cast<std::size_t>(cg_->iterations()) + (cg_->info() == Eigen::Success ? 1U : 0U);
+      detail::as_eigen(x) += step;
+      system_.residual(system_.sources(), x, residual_);
+      const double next = system_.scaled_norm(residual_);
+      if (!(next < reached)) {
+        detail::as_eigen(x) -= step;
+      }
+      if (!(next <= 0.5 * reached)) {
+        report.stop = solve_stop::stagnated;
+        break;
+      }
+      reached = next;
+    }
+    system_.finish(x, report);
+    if (report.ok() && report.backward_error <= options.tolerance) {
+      report.stop = solve_stop::backward_error;
+    } else if (report.ok()) {
+      report.reason = solve_status::not_converged;
+    }
+    return report;
+  }
+
+  [[nodiscard]] const pressure_system& system() const noexcept { return system_; }
+  [[nodiscard]] Preconditioner& preconditioner() noexcept { return cg_->preconditioner(); }
+
+ private:
+  using cg = Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper, Preconditioner>;
+
+  pressure_system system_;
+  lower_triangle<int> triangle_;
+  Eigen::SparseMatrix<double> matrix_;
+  std::unique_ptr<cg> cg_ = std::make_unique<cg>();  // Eigen's solvers do not move
+  bool ready_ = false;
+  std::vector<double> residual_;
+};
+static_assert(network_solver<eigen_cg_solver<>>);
 
 }  // namespace tetrapore::inline TETRAPORE_ABI
