@@ -2,7 +2,7 @@
 #pragma once
 
 #include "tetrapore/core/error.hpp"
-#include "tetrapore/network/network.hpp"
+#include "tetrapore/network/gather.hpp"
 
 #include <array>
 #include <cmath>

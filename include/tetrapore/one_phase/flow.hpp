@@ -84,6 +84,7 @@ class saturated_flow {
       solver_.analyze(system_.graph());
       factorized_ = false;
     }
+    near_ = false;
     x_.clear();
   }
 
@@ -179,12 +180,14 @@ class saturated_flow {
       inflow[n] += stored[n];
     }
     const flow_system::right_hand_side right = system_.sources(*net_, k, inflow);
+    how.warm = how.warm && near_;
     std::vector<double> x = how.warm ? system_.start_from(*net_, pressure_.values())
                                      : std::vector<double>(system_.unknowns(), 0.0);
     how.balance_floor += right.rounding + rates.rounding;
     const solve_report report = solver_.solve(right.b, x, how);
     expect_answer(report);
     report_ = report;
+    near_ = report.ok();
     x_ = system_.with_held(x);
     if (per_time > 0) {
       system_.take_up(x_, per_time, inflow);
@@ -256,6 +259,7 @@ class saturated_flow {
   solve_report report_;
   double per_time_ = 0;
   bool factorized_ = false;
+  bool near_ = false;  ///< the pressure is a guess of the next one
 };
 
 }  // namespace tetrapore::inline TETRAPORE_ABI

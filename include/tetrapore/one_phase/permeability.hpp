@@ -62,7 +62,7 @@ template <class Law, class Solver>
 /// The permeability tensor by three flows under a mean gradient along each periodic axis, from the dissipation
 /// k_ab = (μ/V) Σ w d_a d_b, with d_a the drops of pressure of flow a: symmetric, and an error of the pressures enters
 /// squared.
-/// \param conditions of the flow's faces that are not periodic stay; its mean gradient is restored afterwards
+/// The other conditions of the flow stay; its mean gradient is restored, and it has to be solved again.
 /// \throw parameter_error  a network without periodic axes, or with held pressures
 template <class Law, class Solver>
 [[nodiscard]] permeability_tensor tensor_of_permeability(saturated_flow<Law, Solver>& flow, double viscosity,
