@@ -75,6 +75,9 @@ class cholmod_owned {
 
 /// What a cholmod_factorization is asked for.
 struct cholmod_settings {
+  /// Refinements on w and s that every solution gets, each for the price of a solution: one mends what assembling the
+  /// matrix has lost (error 2e-8 to 3e-15 at a contrast of 5e19). 0 where only speed counts.
+  std::size_t refinements = 1;
   /// Up to so many conductances and excesses that differ from those of the factor at hand are taken into it by rank-1
   /// updates and downdates; with more, or with 0, factorize starts anew. An updated factor differs from a new one in its
   /// last bits, and is kept by columns, without the speed of blocks.
@@ -173,6 +176,7 @@ class cholmod_factorization {
     std::copy(solution, solution + b.size(), x.begin());
   }
 
+  [[nodiscard]] std::size_t refinements() const noexcept { return settings_.refinements; }
   /// Rank-1 changes since the factor was last made anew.
   [[nodiscard]] std::size_t updates() const noexcept { return updates_; }
   [[nodiscard]] const cholmod_settings& settings() const noexcept { return settings_; }

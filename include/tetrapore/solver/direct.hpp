@@ -28,7 +28,8 @@ concept pressure_factor = std::default_initializable<F> &&
                           };
 
 /// Solves with a factor, and refines the solution by residuals in flux form until the scaled residual
-/// ‖D^-½ r‖ / ‖D^-½ b‖ is below the tolerance or no longer halves.
+/// ‖D^-½ r‖ / ‖D^-½ b‖ is below the tolerance or no longer halves; at least as often as the factor's member
+/// `refinements()` asks for, if it has one. With options.warm it begins from x instead of the factor's solution.
 /// \par Accuracy  that of the factor where it is subtraction-free; else refinement mends what assembling the diagonal
 /// lost as long as the factor is right in its first digit
 template <pressure_factor Factor>
@@ -69,7 +70,12 @@ class direct_solver {
     const double target = options.tolerance * system_.scaled_norm(system_.sources());
     system_.residual(system_.sources(), x, residual_);
     double reached = system_.scaled_norm(residual_);
-    while (reached > target && report.iterations < options.max_iterations) {
+    std::size_t wanted = 0;
+    if constexpr (requires { factor_.refinements(); }) {
+      wanted = factor_.refinements();
+    }
+    while ((reached > target || (report.iterations < wanted && reached > 0)) &&
+           report.iterations < options.max_iterations) {
       ++report.iterations;
       factor_.apply(residual_, correction_);
       for (std::size_t i = 0; i < x.size(); ++i) {

@@ -22,8 +22,82 @@
 /// any solver that takes one. The only header that sees Eigen (MPL-2.0).
 
 namespace tetrapore::inline TETRAPORE_ABI {
+namespace detail {
+class flux_operator;
+}
+}  // namespace tetrapore::inline TETRAPORE_ABI
+
+template <>
+struct Eigen::internal::traits<tetrapore::detail::flux_operator>
+    : Eigen::internal::traits<Eigen::SparseMatrix<double>> {};
+
+namespace tetrapore::inline TETRAPORE_ABI {
 
 namespace detail {
+
+/// Σ_j w_ij (x_i − x_j) + s_i x_i as an operator of Eigen: a sum of fluxes, without a diagonal.
+class flux_operator : public Eigen::EigenBase<flux_operator> {
+ public:
+  using Scalar = double;
+  using RealScalar = double;
+  using StorageIndex = int;
+  enum {
+    ColsAtCompileTime = Eigen::Dynamic,
+    MaxColsAtCompileTime = Eigen::Dynamic,
+    RowsAtCompileTime = Eigen::Dynamic,
+    IsRowMajor = false
+  };
+
+  void assign(const network_graph& graph, std::span<const double> weights, std::span<const double> excess) {
+    graph_ = graph;
+    excess_.assign(excess.begin(), excess.end());
+    const auto edges = graph.all_incident_edges();
+    weights_.resize(edges.size());
+    for (std::size_t k = 0; k < edges.size(); ++k) {
+      weights_[k] = weights[edges[k]];
+    }
+  }
+
+  [[nodiscard]] Eigen::Index rows() const noexcept { return static_cast<Eigen::Index>(graph_.node_count()); }
+  [[nodiscard]] Eigen::Index cols() const noexcept { return rows(); }
+
+  template <class Rhs>
+  [[nodiscard]] Eigen::Product<flux_operator, Rhs, Eigen::AliasFreeProduct> operator*(
+      const Eigen::MatrixBase<Rhs>& x) const {
+    return {*this, x.derived()};
+  }
+
+  /// y += scale · A x
+  template <class Destination, class Rhs>
+  void add_product(Destination& y, const Rhs& x, double scale) const {
+    const auto offsets = graph_.offsets();
+    const auto next = graph_.all_neighbours();
+    for (Eigen::Index i = 0; i < rows(); ++i) {
+      const auto row = static_cast<std::size_t>(i);
+      const double own = x[i];
+      double sum = excess_[row] * own;
+      for (std::uint32_t k = offsets[row]; k < offsets[row + 1]; ++k) {
+        sum += weights_[k] * (own - x[static_cast<Eigen::Index>(next[k])]);
+      }
+      y[i] += scale * sum;
+    }
+  }
+
+ private:
+  network_graph graph_;
+  std::vector<double> weights_;  // of each entry of the rows
+  std::vector<double> excess_;
+};
+
+/// A preconditioner that was made beforehand: the solver shall not make it from its operator.
+template <class Preconditioner>
+class ready_made : public Preconditioner {
+ public:
+  template <class Matrix>
+  ready_made& compute(const Matrix&) {
+    return *this;
+  }
+};
 
 /// An Eigen matrix with the pattern of a lower triangle.
 [[nodiscard]] inline Eigen::SparseMatrix<double> matrix_with(const lower_triangle<int>& pattern) {
@@ -47,6 +121,20 @@ namespace detail {
 }
 
 }  // namespace detail
+}  // namespace tetrapore::inline TETRAPORE_ABI
+
+template <class Rhs>
+struct Eigen::internal::generic_product_impl<tetrapore::detail::flux_operator, Rhs, Eigen::SparseShape,
+                                             Eigen::DenseShape, Eigen::GemvProduct>
+    : generic_product_impl_base<tetrapore::detail::flux_operator, Rhs,
+                                generic_product_impl<tetrapore::detail::flux_operator, Rhs>> {
+  template <class Destination>
+  static void scaleAndAddTo(Destination& y, const tetrapore::detail::flux_operator& a, const Rhs& x, double scale) {
+    a.add_product(y, x, scale);
+  }
+};
+
+namespace tetrapore::inline TETRAPORE_ABI {
 
 /// The matrix of Σ_j w_ij (x_i − x_j) + s_i x_i on a graph, both triangles.
 /// \param weights  one per edge, at least 0
@@ -91,6 +179,8 @@ class eigen_ldlt_factorization {
       detail::as_eigen(x) = ldlt_->solve(detail::as_eigen(b));
     }
   }
+  /// One refinement mends what assembling the matrix has lost.
+  [[nodiscard]] static constexpr std::size_t refinements() noexcept { return 1; }
 
  private:
   using ldlt = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>;
@@ -190,23 +280,10 @@ class vcycle_preconditioner {
 
   template <class Rhs>
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::MatrixBase<Rhs>& b) const {
+    in_ = b;
     Eigen::VectorXd x(b.rows());
-    const double largest = b.size() > 0 ? b.cwiseAbs().maxCoeff() : 0.0;
-    if (!(largest > 0)) {
-      return x.setZero();
-    }
-    // Powers of two keep the numbers within the range of Real, and change no digit.
-    const double up = std::ldexp(1.0, -std::ilogb(largest));
-    const auto in = hierarchy_.input();
-    for (Eigen::Index i = 0; i < b.rows(); ++i) {
-      in[static_cast<std::size_t>(i)] = static_cast<Real>(b[i] * up);
-    }
-    hierarchy_.cycle();
-    const auto out = hierarchy_.output();
-    const double back = hierarchy_.scale() / up;
-    for (Eigen::Index i = 0; i < b.rows(); ++i) {
-      x[i] = static_cast<double>(out[static_cast<std::size_t>(i)]) * back;
-    }
+    const auto n = static_cast<std::size_t>(b.rows());
+    hierarchy_.apply(std::span<const double>(in_.data(), n), std::span<double>(x.data(), n));
     return x;
   }
 
@@ -215,15 +292,16 @@ class vcycle_preconditioner {
   [[nodiscard]] Eigen::Index cols() const noexcept { return size_; }
 
  private:
-  mutable aggregation_hierarchy<Real> hierarchy_;  // its vectors are workspace
+  mutable aggregation_hierarchy<Real> hierarchy_;  // works in itself
+  mutable Eigen::VectorXd in_;
   network_graph graph_;
   Eigen::Index size_ = 0;
   bool assigned_ = false;
   Eigen::ComputationInfo info_ = Eigen::InvalidInput;
 };
 
-/// Eigen's conjugate gradients on the assembled matrix, restarted from the residual on w and s until the scaled residual
-/// ‖D^-½ r‖ / ‖D^-½ b‖ is below the tolerance or no longer halves.
+/// Eigen's conjugate gradients on w and s (only the preconditioner may see an assembled matrix), restarted from the true
+/// residual until the scaled residual ‖D^-½ r‖ / ‖D^-½ b‖ is below the tolerance or no longer halves.
 /// \tparam Preconditioner  any of Eigen's: DiagonalPreconditioner<double>, IncompleteCholesky<double>, or our V-cycle.
 ///         With the first two a large system needs thousands of iterations: raise options.max_iterations
 template <class Preconditioner = vcycle_preconditioner<>>
@@ -231,7 +309,6 @@ class eigen_cg_solver {
  public:
   void analyze(const network_graph& graph) {
     system_.analyze(graph);
-    triangle_ = lower_triangle<int>(graph);
     ready_ = false;
   }
 
@@ -243,14 +320,14 @@ class eigen_cg_solver {
       return report;
     }
     const std::vector<double> grounded = system_.grounded_excess();
-    Eigen::SparseMatrix<double> lower = detail::matrix_with(triangle_);
-    triangle_.fill(system_.graph(), system_.weights(), grounded, detail::values_of(lower));
-    matrix_ = lower.selfadjointView<Eigen::Lower>();
     if constexpr (requires(Preconditioner& p) { p.assign(system_.graph(), system_.weights(), grounded); }) {
-      cg_->preconditioner().assign(system_.graph(), system_.weights(), grounded);
+      preconditioner().assign(system_.graph(), system_.weights(), grounded);
+    } else {
+      preconditioner().compute(laplacian(system_.graph(), system_.weights(), grounded));
     }
-    cg_->compute(matrix_);
-    ready_ = cg_->preconditioner().info() == Eigen::Success;
+    operator_->assign(system_.graph(), system_.weights(), grounded);
+    cg_->compute(*operator_);
+    ready_ = preconditioner().info() == Eigen::Success;
     report.reason = ready_ ? solve_status::ok : solve_status::factorization_failed;
     return report;
   }
@@ -293,9 +370,7 @@ class eigen_cg_solver {
       reached = next;
     }
     system_.finish(x, report);
-    if (report.ok() && report.backward_error <= options.tolerance) {
-      report.stop = solve_stop::backward_error;
-    } else if (report.ok()) {
+    if (report.ok() && (report.stop == solve_stop::max_iterations || !(report.backward_error <= options.tolerance))) {
       report.reason = solve_status::not_converged;
     }
     return report;
@@ -305,12 +380,13 @@ class eigen_cg_solver {
   [[nodiscard]] Preconditioner& preconditioner() noexcept { return cg_->preconditioner(); }
 
  private:
-  using cg = Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper, Preconditioner>;
+  using cg =
+      Eigen::ConjugateGradient<detail::flux_operator, Eigen::Lower | Eigen::Upper, detail::ready_made<Preconditioner>>;
 
   pressure_system system_;
-  lower_triangle<int> triangle_;
-  Eigen::SparseMatrix<double> matrix_;
-  std::unique_ptr<cg> cg_ = std::make_unique<cg>();  // Eigen's solvers do not move
+  // at fixed addresses: Eigen's solvers do not move, and keep a reference to the operator
+  std::unique_ptr<detail::flux_operator> operator_ = std::make_unique<detail::flux_operator>();
+  std::unique_ptr<cg> cg_ = std::make_unique<cg>();
   bool ready_ = false;
   std::vector<double> residual_;
 };

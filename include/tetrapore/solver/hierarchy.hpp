@@ -5,7 +5,6 @@
 #include "tetrapore/solver/ldlt.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <concepts>
@@ -23,73 +22,63 @@ namespace tetrapore::inline TETRAPORE_ABI {
 
 /// How a hierarchy is made; the defaults were chosen on dense packings.
 struct hierarchy_options {
-  double quality = 0.25;         ///< two nodes may be merged when w (D_i + D_j) / (D_i D_j) reaches it
-  double shrink = 2.5;           ///< a level ends when it has so many times fewer nodes than the one before
-  std::uint32_t largest = 8;     ///< nodes of one level that may be merged into one
-  double dominance = 1e3;        ///< a node whose diagonal exceeds so many times Σw is left to the smoother
-  std::size_t coarsest = 300;    ///< systems of at most this size are solved directly
-  double over = 1.0;
+  double quality = 0.25;        ///< two nodes may be merged when w (D_i + D_j) / (D_i D_j) reaches it
+  double shrink = 2.5;          ///< a level ends when it has so many times fewer nodes than the one before
+  std::uint32_t largest = 8;    ///< so many nodes of one level may become one
+  double dominance = 1e3;       ///< a node whose diagonal exceeds so many times Σw is left to the smoother
+  std::size_t coarsest = 1000;  ///< systems of at most this size are solved directly
+  /// Factor on the correction from the coarser level. Constants on aggregates are stiffer than the pressures they stand
+  /// for; the preconditioner is definite for any positive factor.
+  double stretch = 1.35;
 };
 
 namespace detail {
 
 inline constexpr std::uint32_t no_aggregate = 0xffffffffU;
 
-/// Rows of a level: the neighbours before a node, then those after it.
+/// Rows of a level: of each node the neighbours before it, then those after it.
 template <class T>
 struct level_rows {
   std::vector<std::uint32_t> offsets;
   std::vector<std::uint32_t> split;  // where the neighbours after the node begin
   std::vector<std::uint32_t> columns;
   std::vector<T> weights;
-  [[nodiscard]] std::size_t size() const noexcept { return offsets.empty() ? 0 : offsets.size() - 1; }
+  [[nodiscard]] std::size_t size() const noexcept { return split.size(); }
 };
 
-/// Merges nodes pair by pair, best quality first.
+/// Merges the nodes of a level pair by pair, best quality first.
 template <class T>
 class pairwise_aggregation {
  public:
-  pairwise_aggregation(const level_rows<T>& rows, std::span<const T> excess, const hierarchy_options& how)
-      : fine_(rows), how_(how) {
-    const std::size_t n = rows.size();
-    aggregate_.resize(n);
-    diagonal_.resize(n);
-    std::uint32_t kept = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      T sum(0);
-      for (std::uint32_t k = rows.offsets[i]; k < rows.offsets[i + 1]; ++k) {
-        sum += rows.weights[k];
-      }
-      const T whole = sum + excess[i];
-      diagonal_[i] = whole;
-      aggregate_[i] = sum > T(0) && whole <= static_cast<T>(how.dominance) * sum ? kept++ : no_aggregate;
+  /// \param inverse  1 / diagonal of each node, 0 for a node without conductance and excess
+  pairwise_aggregation(const level_rows<T>& rows, std::span<const T> excess, std::span<const T> inverse,
+                       const hierarchy_options& how)
+      : fine_(rows), how_(how), inverse_(inverse.begin(), inverse.end()), size_(rows.size()) {
+    const T least = static_cast<T>(1 - 1 / how.dominance);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const bool apart = inverse[i] == T(0) || rows.offsets[i] == rows.offsets[i + 1] || excess[i] * inverse[i] > least;
+      size_[i] = apart ? how.largest + 1 : 1;  // too large for any partner
     }
-    count_ = kept;
-    size_.assign(n, 1);
   }
 
-  /// The aggregate of each node of the level.
-  [[nodiscard]] std::span<const std::uint32_t> aggregate() const noexcept { return aggregate_; }
-  [[nodiscard]] std::size_t count() const noexcept { return count_; }
+  /// The aggregate of each node of the level, or no_aggregate.
+  [[nodiscard]] std::vector<std::uint32_t>& aggregate() noexcept { return aggregate_; }
 
   /// Merges until the level has shrunk enough; the rows of what is left.
-  level_rows<T> run() {
-    const std::size_t n = fine_.size();
+  [[nodiscard]] level_rows<T> run() {
+    const auto n = static_cast<double>(fine_.size());
+    aggregate_ = match(fine_);
     level_rows<T> rows = merged_rows(fine_, aggregate_, count_);
-    merge_diagonals(aggregate_);
-    if (count_ == 0) {
-      return rows;
-    }
-    for (int pass = 0; pass < 4 && static_cast<double>(count_) * how_.shrink > static_cast<double>(n); ++pass) {
+    for (int pass = 1; pass < 4 && static_cast<double>(count_) * how_.shrink > n; ++pass) {
+      merge_diagonals(pass == 1 ? aggregate_ : merge_);
       const std::size_t before = count_;
-      const std::vector<std::uint32_t> merge = match(rows);
+      merge_ = match(rows);
       if (count_ == before) {
         break;
       }
-      rows = merged_rows(rows, merge, count_);
-      merge_diagonals(merge);
+      rows = merged_rows(rows, merge_, count_);
       for (std::uint32_t& a : aggregate_) {
-        a = a == no_aggregate ? a : merge[a];
+        a = a == no_aggregate ? a : merge_[a];
       }
     }
     return rows;
@@ -100,73 +89,74 @@ class pairwise_aggregation {
     std::uint32_t i, j;
     float quality;
   };
+  struct share {
+    std::uint32_t pair;
+    T weight;
+  };
 
-  [[nodiscard]] T quality(T w, T d_i, T d_j) const noexcept { return w / d_i + w / d_j; }
-
+  /// Diagonals and sizes of partial aggregates are sums over the nodes of the level.
   void merge_diagonals(const std::vector<std::uint32_t>& merge) {
     std::vector<T> diagonal(count_, T(0));
     std::vector<std::uint32_t> size(count_, 0);
     for (std::size_t i = 0; i < merge.size(); ++i) {
       if (merge[i] != no_aggregate) {
-        diagonal[merge[i]] += diagonal_[i];
+        diagonal[merge[i]] += T(1) / inverse_[i];
         size[merge[i]] += size_[i];
       }
     }
-    diagonal_ = std::move(diagonal);
+    for (T& d : diagonal) {
+      d = T(1) / d;
+    }
+    inverse_ = std::move(diagonal);
     size_ = std::move(size);
   }
 
   /// One pass: the aggregate of each node of these rows, numbered by their first node.
   [[nodiscard]] std::vector<std::uint32_t> match(const level_rows<T>& rows) {
     const std::size_t n = rows.size();
-    std::vector<candidate> found;
-    found.reserve(rows.columns.size() / 4);
-    for (std::size_t i = 0; i < n; ++i) {
-      const T over = T(1) / diagonal_[i];
-      for (std::uint32_t k = rows.split[i]; k < rows.offsets[i + 1]; ++k) {
-        const std::uint32_t j = rows.columns[k];
-        const T q = rows.weights[k] * over + rows.weights[k] / diagonal_[j];
-        if (q >= static_cast<T>(how_.quality) && size_[i] + size_[j] <= how_.largest) {
-          found.push_back({static_cast<std::uint32_t>(i), j, static_cast<float>(q)});
-        }
-      }
-    }
-    const std::vector<candidate> best_first = sorted(found);
     std::vector<std::uint32_t> leader(n, no_aggregate);  // the first of a pair; no_aggregate: free
-    std::vector<std::uint32_t> pair_size(n, 0);
-    std::vector<T> pair_diagonal(n, T(0));
+    std::vector<T> pair_inverse(n);                      // of a leader: 1 / diagonal of its pair
+    std::vector<std::uint32_t> pair_size(n);
+    std::vector<share> shares;
+    // The finished pair that node i fits best.
     const auto best_join = [&](std::uint32_t i) {
-      std::pair<T, std::uint32_t> best{T(0), no_aggregate};
-      for (std::uint32_t k = rows.offsets[i]; k < rows.offsets[i + 1]; ++k) {
-        const std::uint32_t a = leader[rows.columns[k]];
-        if (a == no_aggregate || pair_size[a] + size_[i] > how_.largest) {
+      shares.clear();
+      for (std::uint32_t k = rows.offsets[i]; k < rows.offsets[i + std::size_t{1}]; ++k) {
+        const std::uint32_t pair = leader[rows.columns[k]];
+        if (pair == no_aggregate) {
           continue;
         }
-        T w(0);
-        for (std::uint32_t m = rows.offsets[i]; m < rows.offsets[i + 1]; ++m) {
-          w += leader[rows.columns[m]] == a ? rows.weights[m] : T(0);
+        std::size_t m = 0;
+        while (m < shares.size() && shares[m].pair != pair) {
+          ++m;
         }
-        const T q = w / diagonal_[i] + w / pair_diagonal[a];
-        if (q > best.first) {
-          best = {q, a};
+        if (m < shares.size()) {
+          shares[m].weight += rows.weights[k];
+        } else if (pair_size[pair] + size_[i] <= how_.largest) {
+          shares.push_back({pair, rows.weights[k]});
         }
+      }
+      share best{no_aggregate, T(0)};
+      for (const share& s : shares) {
+        const T q = s.weight * (inverse_[i] + pair_inverse[s.pair]);
+        best = q > best.weight ? share{s.pair, q} : best;
       }
       return best;
     };
-    const auto join = [&](std::uint32_t i, std::uint32_t a) {
-      leader[i] = a;
-      pair_size[a] += size_[i];
-      pair_diagonal[a] += diagonal_[i];
+    const auto join = [&](std::uint32_t i, std::uint32_t pair) {
+      leader[i] = pair;
+      pair_size[pair] += size_[i];
+      pair_inverse[pair] = T(1) / (T(1) / pair_inverse[pair] + T(1) / inverse_[i]);
     };
-    for (const candidate& c : best_first) {
+    for (const candidate& c : candidates(rows)) {
       if (leader[c.i] != no_aggregate || leader[c.j] != no_aggregate) {
         continue;
       }
+      // Neither has a better free partner; a finished pair has to be twice as good.
       bool joined = false;
       for (const std::uint32_t i : {c.i, c.j}) {
-        const auto [q, a] = best_join(i);
-        if (q > T(2) * static_cast<T>(c.quality)) {
-          join(i, a);
+        if (const share best = best_join(i); best.weight > T(2) * static_cast<T>(c.quality)) {
+          join(i, best.pair);
           joined = true;
         }
       }
@@ -174,45 +164,61 @@ class pairwise_aggregation {
         leader[c.i] = c.i;
         leader[c.j] = c.i;
         pair_size[c.i] = size_[c.i] + size_[c.j];
-        pair_diagonal[c.i] = diagonal_[c.i] + diagonal_[c.j];
+        pair_inverse[c.i] = T(1) / (T(1) / inverse_[c.i] + T(1) / inverse_[c.j]);
       }
     }
     for (std::uint32_t i = 0; i < n; ++i) {
-      if (leader[i] == no_aggregate) {
-        if (const auto [q, a] = best_join(i); q >= T(2) * static_cast<T>(how_.quality)) {
-          join(i, a);
+      if (leader[i] == no_aggregate && size_[i] < how_.largest) {
+        if (const share best = best_join(i); best.weight >= T(2) * static_cast<T>(how_.quality)) {
+          join(i, best.pair);
         }
       }
     }
-    std::vector<std::uint32_t> merge(n, no_aggregate);
     std::vector<std::uint32_t> number(n, no_aggregate);
     std::uint32_t count = 0;
     for (std::uint32_t i = 0; i < n; ++i) {
-      const std::uint32_t a = leader[i] == no_aggregate ? i : leader[i];
-      if (number[a] == no_aggregate) {
-        number[a] = count++;
+      if (size_[i] > how_.largest) {
+        continue;
       }
-      merge[i] = number[a];
+      std::uint32_t& of_pair = number[leader[i] == no_aggregate ? i : leader[i]];
+      if (of_pair == no_aggregate) {
+        of_pair = count++;
+      }
+      leader[i] = leader[i] == no_aggregate ? i : leader[i];
+    }
+    for (std::uint32_t i = 0; i < n; ++i) {
+      leader[i] = leader[i] == no_aggregate ? no_aggregate : number[leader[i]];
     }
     count_ = count;
-    return merge;
+    return leader;
   }
 
-  /// Largest quality first, to 1 part in 256; in the order found among equals.
-  [[nodiscard]] static std::vector<candidate> sorted(const std::vector<candidate>& found) {
-    const auto key = [](const candidate& c) {
-      return 0xffffU - (std::bit_cast<std::uint32_t>(c.quality) >> 15U);  // positive floats sort as their bits do
+  /// The pairs of sufficient quality, best first to 1 part in 256, in the order of the rows among equals.
+  [[nodiscard]] std::vector<candidate> candidates(const level_rows<T>& rows) const {
+    const auto key = [](float quality) {
+      // The bits of positive floats are ordered as they are.
+      return 0xffffU - (std::bit_cast<std::uint32_t>(quality) >> 15U);
     };
+    const auto least = static_cast<T>(how_.quality);
+    std::vector<candidate> found;
+    found.reserve(rows.columns.size() / 2);
     std::vector<std::uint32_t> begin(0x10001U, 0);
-    for (const candidate& c : found) {
-      ++begin[key(c) + 1];
+    for (std::uint32_t i = 0; i < rows.size(); ++i) {
+      for (std::uint32_t k = rows.split[i]; k < rows.offsets[i + std::size_t{1}]; ++k) {
+        const std::uint32_t j = rows.columns[k];
+        const T q = rows.weights[k] * (inverse_[i] + inverse_[j]);
+        if (q >= least && size_[i] + size_[j] <= how_.largest) {
+          found.push_back({i, j, static_cast<float>(q)});
+          ++begin[key(found.back().quality) + 1];
+        }
+      }
     }
     for (std::size_t k = 0; k + 1 < begin.size(); ++k) {
       begin[k + 1] += begin[k];
     }
     std::vector<candidate> sorted(found.size());
     for (const candidate& c : found) {
-      sorted[begin[key(c)]++] = c;
+      sorted[begin[key(c.quality)]++] = c;
     }
     return sorted;
   }
@@ -220,7 +226,6 @@ class pairwise_aggregation {
   /// The rows of aggregates: conductances between them summed, those inside dropped.
   [[nodiscard]] static level_rows<T> merged_rows(const level_rows<T>& rows, std::span<const std::uint32_t> merge,
                                                  std::size_t count) {
-    const std::size_t n = rows.size();
     std::vector<std::uint32_t> begin(count + 1, 0);
     for (const std::uint32_t a : merge) {
       if (a != no_aggregate) {
@@ -231,25 +236,24 @@ class pairwise_aggregation {
       begin[a + 1] += begin[a];
     }
     std::vector<std::uint32_t> members(begin[count]);
-    {
-      std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
-      for (std::uint32_t i = 0; i < n; ++i) {
-        if (merge[i] != no_aggregate) {
-          members[next[merge[i]]++] = i;
-        }
+    std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
+    for (std::uint32_t i = 0; i < merge.size(); ++i) {
+      if (merge[i] != no_aggregate) {
+        members[next[merge[i]]++] = i;
       }
     }
+    struct place {
+      std::uint32_t row, entry;
+    };
+    std::vector<place> places(count, place{no_aggregate, 0});  // where the latest row that holds a column has it
+    std::vector<share> row;
     level_rows<T> out;
     out.offsets.resize(count + 1);
     out.split.resize(count);
     out.columns.reserve(rows.columns.size());
     out.weights.reserve(rows.columns.size());
-    std::vector<std::uint32_t> at(count, no_aggregate);  // where the row of the moment holds a column
-    std::vector<std::pair<std::uint32_t, T>> upper;
     for (std::uint32_t a = 0; a < count; ++a) {
-      const auto start = static_cast<std::uint32_t>(out.columns.size());
-      out.offsets[a] = start;
-      upper.clear();
+      row.clear();
       for (std::uint32_t m = begin[a]; m < begin[a + std::size_t{1}]; ++m) {
         const std::uint32_t i = members[m];
         for (std::uint32_t k = rows.offsets[i]; k < rows.offsets[i + std::size_t{1}]; ++k) {
@@ -257,32 +261,24 @@ class pairwise_aggregation {
           if (b == a || b == no_aggregate) {
             continue;
           }
-          if (b < a) {
-            if (at[b] == no_aggregate || at[b] < start || out.columns[at[b]] != b) {
-              at[b] = static_cast<std::uint32_t>(out.columns.size());
-              out.columns.push_back(b);
-              out.weights.push_back(rows.weights[k]);
-            } else {
-              out.weights[at[b]] += rows.weights[k];
-            }
+          if (places[b].row == a) {
+            row[places[b].entry].weight += rows.weights[k];
           } else {
-            if (at[b] == no_aggregate || at[b] >= upper.size() || upper[at[b]].first != b) {
-              at[b] = static_cast<std::uint32_t>(upper.size());
-              upper.emplace_back(b, rows.weights[k]);
-            } else {
-              upper[at[b]].second += rows.weights[k];
-            }
+            places[b] = {a, static_cast<std::uint32_t>(row.size())};
+            row.push_back({b, rows.weights[k]});
           }
         }
       }
-      out.split[a] = static_cast<std::uint32_t>(out.columns.size());
-      for (const auto& [b, w] : upper) {
-        at[b] = no_aggregate;
-        out.columns.push_back(b);
-        out.weights.push_back(w);
+      for (const bool after : {false, true}) {
+        for (const share& entry : row) {
+          if ((entry.pair > a) == after) {
+            out.columns.push_back(entry.pair);
+            out.weights.push_back(entry.weight);
+          }
+        }
+        (after ? out.offsets[a + std::size_t{1}] : out.split[a]) = static_cast<std::uint32_t>(out.columns.size());
       }
     }
-    out.offsets[count] = static_cast<std::uint32_t>(out.columns.size());
     out.columns.shrink_to_fit();
     out.weights.shrink_to_fit();
     return out;
@@ -290,135 +286,187 @@ class pairwise_aggregation {
 
   const level_rows<T>& fine_;
   hierarchy_options how_;
-  std::vector<std::uint32_t> aggregate_;
-  std::vector<T> diagonal_;  // of the partial aggregates: Σ of the diagonals of the level
+  std::vector<T> inverse_;  // 1 / diagonal of the partial aggregates
   std::vector<std::uint32_t> size_;
+  std::vector<std::uint32_t> aggregate_;
+  std::vector<std::uint32_t> merge_;
   std::size_t count_ = 0;
 };
 
 }  // namespace detail
 
+/// A hierarchy of aggregates and its V-cycle: x = M⁻¹ b with M symmetric, positive (semi-)definite and close to the matrix
+/// of the pressure system, so that it preconditions any conjugate gradients.
+///
+/// Nodes are merged pair by pair, best quality first; conductances and excess of a coarser level are sums of those of the
+/// finer one, so that nothing cancels and floating clusters stay floating. One symmetric Gauss-Seidel sweep per level; the
+/// last level is solved by the subtraction-free LDLᵀ. Conductances are held relative to the largest, and those that
+/// would vanish in T are raised to its smallest normal number.
+/// \tparam T  what conductances and vectors of the hierarchy are held in: float costs no iterations, and less memory
+/// \par Thread safety  none: a cycle works in the hierarchy
+/// \par Source  Notay, Electron. Trans. Numer. Anal. 37 (2010) 123 (quality of aggregates); Braess, Computing 55 (1995) 379
+///              (the stretched correction)
 template <std::floating_point T>
 class aggregation_hierarchy {
  public:
-  explicit aggregation_hierarchy(const hierarchy_options& how = {}) : how_(how) {}
+  aggregation_hierarchy() = default;
+  explicit aggregation_hierarchy(const hierarchy_options& how) : how_(how) {}
 
+  /// Numbers the nodes breadth-first, so that neighbours lie close in memory.
   void analyze(const network_graph& graph) {
-    graph_ = graph;
+    const std::size_t n = graph.node_count();
     levels_.clear();
     levels_.emplace_back();
-    auto& rows = levels_[0].rows;
-    const std::size_t n = graph.node_count();
-    rows.offsets.assign(graph.offsets().begin(), graph.offsets().end());
+    order_.clear();
+    order_.reserve(n);
+    std::vector<std::uint32_t> position(n, detail::no_aggregate);
+    for (std::uint32_t start = 0; start < n; ++start) {
+      if (position[start] != detail::no_aggregate) {
+        continue;
+      }
+      position[start] = static_cast<std::uint32_t>(order_.size());
+      order_.push_back(start);
+      for (std::size_t head = order_.size() - 1; head < order_.size(); ++head) {
+        for (const std::uint32_t j : graph.neighbours(order_[head])) {
+          if (position[j] == detail::no_aggregate) {
+            position[j] = static_cast<std::uint32_t>(order_.size());
+            order_.push_back(j);
+          }
+        }
+      }
+    }
+    detail::level_rows<T>& rows = levels_[0].rows;
+    rows.offsets.resize(n + 1);
     rows.split.resize(n);
     rows.columns.resize(graph.all_neighbours().size());
     edges_.resize(rows.columns.size());
+    rows.offsets[0] = 0;
     for (std::uint32_t i = 0; i < n; ++i) {
-      const auto near = graph.neighbours(i);
-      const auto edge = graph.incident_edges(i);
+      const auto near = graph.neighbours(order_[i]);
+      const auto edge = graph.incident_edges(order_[i]);
       std::uint32_t low = rows.offsets[i];
-      std::uint32_t high = rows.offsets[i + std::size_t{1}];
+      std::uint32_t high = rows.offsets[i + std::size_t{1}] = low + static_cast<std::uint32_t>(near.size());
       for (std::size_t k = 0; k < near.size(); ++k) {
-        const std::uint32_t at = near[k] < i ? low++ : --high;
-        rows.columns[at] = near[k];
+        const std::uint32_t j = position[near[k]];
+        const std::uint32_t at = j < i ? low++ : --high;
+        rows.columns[at] = j;
         edges_[at] = edge[k];
       }
       rows.split[i] = low;
     }
   }
 
+  /// \param weights  of each edge, finite, at least 0
+  /// \param excess   of each node, finite, at least 0
   void factorize(std::span<const double> weights, std::span<const double> excess) {
     levels_.resize(1);
+    direct_ = false;
     scale_ = scale_of(weights, excess);
-    level& finest = levels_[0];
-    finest.rows.weights.resize(edges_.size());
-    for (std::size_t k = 0; k < edges_.size(); ++k) {
-      finest.rows.weights[k] = narrowed(weights[edges_[k]] * scale_);
-    }
-    std::vector<T> s(excess.size());
+    std::vector<T> s(order_.size());
     for (std::size_t i = 0; i < s.size(); ++i) {
-      s[i] = narrowed(excess[i] * scale_);
+      s[i] = narrowed(excess[order_[i]] * scale_);
     }
-    for (;;) {
-      level& now = levels_.back();
-      const std::size_t n = now.rows.size();
-      if (n <= how_.coarsest) {
-        coarsest_.analyze(n, now.rows.offsets, now.rows.columns);
-        coarsest_.factorize(now.rows.offsets, now.rows.columns, s,
-                            [&](std::size_t k) { return static_cast<double>(now.rows.weights[k]); });
-        direct_ = true;
-        now.prepare(s);
-        return;
+    levels_[0].rows.weights.resize(edges_.size());
+    for (std::size_t k = 0; k < edges_.size(); ++k) {
+      levels_[0].rows.weights[k] = narrowed(weights[edges_[k]] * scale_);
+    }
+    levels_[0].prepare(s);
+    while (levels_.back().rows.size() > how_.coarsest) {
+      level next = coarsened(levels_.back(), s);
+      if (next.rows.size() == 0) {
+        break;
       }
-      now.prepare(s);
-      detail::pairwise_aggregation<T> aggregation(now.rows, s, how_);
-      detail::level_rows<T> coarse = aggregation.run();
-      now.aggregate.assign(aggregation.aggregate().begin(), aggregation.aggregate().end());
-      if (10 * coarse.size() > 9 * n) {
-        direct_ = false;
-        return;
-      }
-      std::vector<T> coarse_s(coarse.size(), T(0));
-      for (std::size_t i = 0; i < n; ++i) {
-        const std::uint32_t a = now.aggregate[i];
-        if (a == detail::no_aggregate) {
-          continue;
-        }
-        coarse_s[a] += s[i];
-        for (std::uint32_t k = now.rows.offsets[i]; k < now.rows.offsets[i + 1]; ++k) {
-          if (now.aggregate[now.rows.columns[k]] == detail::no_aggregate) {
-            coarse_s[a] += now.rows.weights[k];
-          }
-        }
-      }
-      s = std::move(coarse_s);
-      levels_.emplace_back();
-      levels_.back().rows = std::move(coarse);
+      levels_.push_back(std::move(next));
+    }
+    const detail::level_rows<T>& last = levels_.back().rows;
+    if (last.size() <= 5 * how_.coarsest) {
+      direct_ = true;
+      coarsest_.analyze(last.size(), last.offsets, last.columns);
+      coarsest_.factorize(last.offsets, last.columns, s,
+                          [&](std::size_t k) { return static_cast<double>(last.weights[k]); });
     }
   }
 
-  [[nodiscard]] std::size_t level_count() const noexcept { return levels_.size(); }
-  [[nodiscard]] std::size_t level_size(std::size_t l) const noexcept { return levels_[l].rows.size(); }
-  [[nodiscard]] std::size_t level_entries(std::size_t l) const noexcept { return levels_[l].rows.columns.size(); }
-  [[nodiscard]] const detail::level_rows<T>& finest() const noexcept { return levels_[0].rows; }
-  [[nodiscard]] std::span<const std::uint32_t> edges() const noexcept { return edges_; }
+  /// x = M⁻¹ b, in the order of the graph.
+  void apply(std::span<const double> b, std::span<double> x) {
+    double largest = 0;
+    for (const double v : b) {
+      largest = std::abs(v) > largest ? std::abs(v) : largest;
+    }
+    const double unit = power_of_two_near(largest);
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+      input()[i] = static_cast<T>(b[order_[i]] / unit);
+    }
+    cycle([](std::size_t, T) {});
+    const double back = unit * scale_;
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+      x[order_[i]] = back * static_cast<double>(output()[i]);
+    }
+  }
+
+  /// The node of the graph at each place of the numbering that the members below use.
+  [[nodiscard]] std::span<const std::uint32_t> order() const noexcept { return order_; }
+  /// Rows of the finest level, and the edge of each entry.
+  [[nodiscard]] const detail::level_rows<T>& rows() const noexcept { return levels_[0].rows; }
+  [[nodiscard]] std::span<const std::uint32_t> entry_edges() const noexcept { return edges_; }
+  /// `cycle` reads input() and fills output(), which then is x / scale() for the b in input().
   [[nodiscard]] std::span<T> input() noexcept { return levels_[0].r; }
   [[nodiscard]] std::span<const T> output() const noexcept { return levels_[0].z; }
   [[nodiscard]] double scale() const noexcept { return scale_; }
-
-  /// One V-cycle on input(), to output().
-  void cycle() {
+  /// \param visit  visit(i, output()[i]) as soon as it is known
+  template <class Visit>
+  void cycle(const Visit& visit) {
     for (std::size_t l = 0; l + 1 < levels_.size(); ++l) {
-      down(levels_[l], levels_[l + 1]);
+      sweep_forward(levels_[l]);
+      restrict_residual(levels_[l], levels_[l + 1]);
     }
     level& last = levels_.back();
     if (direct_) {
       coarsest_.apply(last.r, last.z);
     } else {
-      forward(last);
-      up(last);
+      sweep_forward(last);
     }
-    for (std::size_t l = levels_.size() - 1; l-- > 0;) {
-      prolong(levels_[l], levels_[l + 1]);
-      up(levels_[l]);
+    for (std::size_t l = levels_.size() - (direct_ ? 1U : 0U); l-- > 0;) {
+      if (l + 1 < levels_.size()) {
+        correct(levels_[l], levels_[l + 1]);
+      }
+      if (l == 0) {
+        sweep_backward(levels_[l], visit);
+      } else {
+        sweep_backward(levels_[l], [](std::size_t, T) {});
+      }
+    }
+    if (direct_ && levels_.size() == 1) {
+      for (std::size_t i = 0; i < order_.size(); ++i) {
+        visit(i, levels_[0].z[i]);
+      }
     }
   }
 
+  [[nodiscard]] std::size_t level_count() const noexcept { return levels_.size(); }
+  [[nodiscard]] std::size_t level_size(std::size_t l) const noexcept { return levels_[l].rows.size(); }
+  /// Heap memory of the hierarchy.
   [[nodiscard]] std::size_t bytes() const noexcept {
-    std::size_t sum = edges_.capacity() * 4 + coarsest_.fill() * 12;
+    constexpr std::size_t index = sizeof(std::uint32_t);
+    std::size_t sum = index * (edges_.capacity() + order_.capacity()) + coarsest_.fill() * (sizeof(double) + index);
     for (const level& l : levels_) {
-      sum += 4 * (l.rows.offsets.capacity() + l.rows.split.capacity() + l.rows.columns.capacity() +
-                  l.aggregate.capacity()) +
+      sum += index * (l.rows.offsets.capacity() + l.rows.split.capacity() + l.rows.columns.capacity() +
+                      l.aggregate.capacity()) +
              sizeof(T) * (l.rows.weights.capacity() + l.inverse.capacity() + l.r.capacity() + l.z.capacity());
     }
     return sum;
   }
 
+  /// 2^k with 2^k ≤ v < 2^(k+1); 1 for 0.
+  [[nodiscard]] static double power_of_two_near(double v) noexcept {
+    return v > 0 ? std::ldexp(1.0, std::ilogb(v)) : 1.0;
+  }
+
  private:
   struct level {
     detail::level_rows<T> rows;
-    std::vector<T> inverse;  // 1 / diagonal
-    std::vector<std::uint32_t> aggregate;
+    std::vector<T> inverse;                // 1 / diagonal; 0 where nothing is attached
+    std::vector<std::uint32_t> aggregate;  // of each node, in the next level
     std::vector<T> r, z;
 
     void prepare(const std::vector<T>& s) {
@@ -437,74 +485,114 @@ class aggregation_hierarchy {
   };
 
   [[nodiscard]] static T narrowed(double v) noexcept {
-    const T t = static_cast<T>(v);
-    return v > 0 && t < std::numeric_limits<T>::min() ? std::numeric_limits<T>::min() : t;
+    constexpr T least = std::numeric_limits<T>::min();
+    const T narrow = static_cast<T>(v);
+    return v > 0 && narrow < least ? least : narrow;
   }
+  /// Brings the largest number to the square root of what T can hold: products with a vector of order 1 neither overflow
+  /// nor vanish.
   [[nodiscard]] static double scale_of(std::span<const double> w, std::span<const double> s) noexcept {
     double largest = 0;
-    for (const double v : w) {
-      largest = v > largest ? v : largest;
+    for (const std::span<const double> values : {w, s}) {
+      for (const double v : values) {
+        largest = v > largest ? v : largest;
+      }
     }
-    for (const double v : s) {
-      largest = v > largest ? v : largest;
-    }
-    return largest > 0 ? std::ldexp(1.0, std::numeric_limits<T>::max_exponent / 2 - std::ilogb(largest)) : 1.0;
+    const int exponent = std::numeric_limits<T>::max_exponent / 2 - (largest > 0 ? std::ilogb(largest) : 0);
+    return std::ldexp(1.0, std::min(exponent, 1000));
   }
 
-  static void forward(level& f) noexcept {
-    const std::size_t n = f.rows.size();
+  /// The next level, and its excess in place of that of the finer one; an empty level when no two nodes can be merged.
+  [[nodiscard]] level coarsened(level& fine, std::vector<T>& s) const {
+    const std::size_t n = fine.rows.size();
+    level next;
+    for (hierarchy_options how = how_;; how.quality /= 4) {
+      if (how.quality < 1e-3) {
+        return {};
+      }
+      detail::pairwise_aggregation<T> aggregation(fine.rows, s, fine.inverse, how);
+      next.rows = aggregation.run();
+      if (10 * next.rows.size() <= 9 * n) {
+        fine.aggregate = std::move(aggregation.aggregate());
+        break;
+      }
+    }
+    std::vector<T> sums(next.rows.size(), T(0));
     for (std::size_t i = 0; i < n; ++i) {
+      const std::uint32_t a = fine.aggregate[i];
+      if (a == detail::no_aggregate) {
+        continue;
+      }
+      sums[a] += s[i];
+      for (std::uint32_t k = fine.rows.offsets[i]; k < fine.rows.offsets[i + 1]; ++k) {
+        if (fine.aggregate[fine.rows.columns[k]] == detail::no_aggregate) {
+          sums[a] += fine.rows.weights[k];
+        }
+      }
+    }
+    s = std::move(sums);
+    next.prepare(s);
+    return next;
+  }
+
+  /// z = (D − L)⁻¹ r.
+  static void sweep_forward(level& f) noexcept {
+    const T* const w = f.rows.weights.data();
+    const std::uint32_t* const column = f.rows.columns.data();
+    T* const z = f.z.data();
+    for (std::size_t i = 0; i < f.rows.size(); ++i) {
       T sum = f.r[i];
       for (std::uint32_t k = f.rows.offsets[i]; k < f.rows.split[i]; ++k) {
-        sum += f.rows.weights[k] * f.z[f.rows.columns[k]];
+        sum += w[k] * z[column[k]];
       }
-      f.z[i] = sum * f.inverse[i];
+      z[i] = sum * f.inverse[i];
     }
   }
-  void down(level& f, level& c) noexcept {
-    const std::size_t n = f.rows.size();
+  /// After that sweep the residual is Lᵀ z: summed over aggregates.
+  static void restrict_residual(const level& f, level& c) noexcept {
+    const T* const w = f.rows.weights.data();
+    const std::uint32_t* const column = f.rows.columns.data();
+    const T* const z = f.z.data();
     std::fill(c.r.begin(), c.r.end(), T(0));
-    for (std::size_t i = 0; i < n; ++i) {
-      T sum = f.r[i];
-      for (std::uint32_t k = f.rows.offsets[i]; k < f.rows.split[i]; ++k) {
-        sum += f.rows.weights[k] * f.z[f.rows.columns[k]];
-      }
-      f.z[i] = sum * f.inverse[i];
-    }
-    for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t i = 0; i < f.rows.size(); ++i) {
       T sum(0);
       for (std::uint32_t k = f.rows.split[i]; k < f.rows.offsets[i + 1]; ++k) {
-        sum += f.rows.weights[k] * f.z[f.rows.columns[k]];
+        sum += w[k] * z[column[k]];
       }
       if (f.aggregate[i] != detail::no_aggregate) {
         c.r[f.aggregate[i]] += sum;
       }
     }
   }
-  void prolong(level& f, const level& c) const noexcept {
-    const T over = static_cast<T>(how_.over);
+  void correct(level& f, const level& c) const noexcept {
+    const auto stretch = static_cast<T>(how_.stretch);
     for (std::size_t i = 0; i < f.z.size(); ++i) {
       if (f.aggregate[i] != detail::no_aggregate) {
-        f.z[i] += over * c.z[f.aggregate[i]];
+        f.z[i] += stretch * c.z[f.aggregate[i]];
       }
     }
   }
-  static void up(level& f) noexcept {
+  template <class Visit>
+  static void sweep_backward(level& f, const Visit& visit) {
+    const T* const w = f.rows.weights.data();
+    const std::uint32_t* const column = f.rows.columns.data();
+    T* const z = f.z.data();
     for (std::size_t i = f.rows.size(); i-- > 0;) {
       T sum = f.r[i];
       for (std::uint32_t k = f.rows.offsets[i]; k < f.rows.offsets[i + 1]; ++k) {
-        sum += f.rows.weights[k] * f.z[f.rows.columns[k]];
+        sum += w[k] * z[column[k]];
       }
-      f.z[i] = sum * f.inverse[i];
+      z[i] = sum * f.inverse[i];
+      visit(i, z[i]);
     }
   }
 
   hierarchy_options how_;
-  network_graph graph_;
-  std::vector<level> levels_;
-  std::vector<std::uint32_t> edges_;  // of each entry of the finest rows
+  std::vector<level> levels_{1};
+  std::vector<std::uint32_t> order_;
+  std::vector<std::uint32_t> edges_;
   double scale_ = 1;
-  bool direct_ = false;
+  bool direct_ = false;  // whether the last level is solved by coarsest_
   subtraction_free_ldlt<double> coarsest_;
 };
 
