@@ -78,9 +78,9 @@ struct two_pyramids {
   static constexpr named_cell lower_c{{b, c, d, bottom}};
   static constexpr named_cell lower_b{{a, b, c, bottom}};
   static constexpr named_cell lower_d{{a, c, d, bottom}};
-  static constexpr named_cell flat{{b, a, c, d}};        ///< diagonal a-c above, b-d below; its first facet looks up
+  static constexpr named_cell flat{{b, a, c, d}};         ///< diagonal a-c above, b-d below; its first facet looks up
   static constexpr named_cell flat_turned{{a, b, d, c}};  ///< the same, its first facet looks down
-  static constexpr named_cell flat_back{{a, b, c, d}};   ///< diagonal b-d above, a-c below; its first facet looks up
+  static constexpr named_cell flat_back{{a, b, c, d}};    ///< diagonal b-d above, a-c below; its first facet looks up
 
   [[nodiscard]] std::vector<tetrapore::sphere<double>> grains() const {
     std::vector<tetrapore::sphere<double>> out;

@@ -37,9 +37,9 @@ std::string refusal(const two_pyramids& shape, const std::vector<named_cell>& na
 /// Periodic in x with period 4, the square across the seam: grain `a` is stored at the low end of the box.
 two_pyramids across_the_seam() {
   two_pyramids shape;
-  shape.region = {{{0, -2, -4}, {4, 2, 4}},
-                  {boundary::periodic, boundary::periodic, boundary::open, boundary::open, boundary::open,
-                   boundary::open}};
+  shape.region = {
+      {{0, -2, -4}, {4, 2, 4}},
+      {boundary::periodic, boundary::periodic, boundary::open, boundary::open, boundary::open, boundary::open}};
   shape.middle = {3.5, 0, 0};
   return shape;
 }
