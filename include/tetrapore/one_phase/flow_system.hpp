@@ -152,8 +152,8 @@ class flow_system {
     if (tilted) {
       for (std::size_t e = 0; e < edge_throat_.size(); ++e) {
         const double q = throat_weights[edge_throat_[e].index()] * tilt(net, edge_throat_[e]);
-        out.b[graph_.edges()[e][0]] -= q;
-        out.b[graph_.edges()[e][1]] += q;
+        out.b[graph_.edges()[e][0]] += q;
+        out.b[graph_.edges()[e][1]] -= q;
         size[graph_.edges()[e][0]] += std::abs(q);
         size[graph_.edges()[e][1]] += std::abs(q);
         pushed += std::abs(q);
@@ -162,7 +162,7 @@ class flow_system {
     for (const held_link& l : held_links_) {
       const double w = throat_weights[l.throat.index()];
       const double q = tilted ? w * tilt(net, l.throat) : 0.0;
-      out.b[l.unknown] += w * x_held_[l.held] + (l.unknown_first ? -q : q);
+      out.b[l.unknown] += w * x_held_[l.held] + (l.unknown_first ? q : -q);
     }
     for (std::size_t i = 0; i < size.size(); ++i) {  // of a lattice, a mean gradient leaves nothing but rounding
       out.b[i] = std::abs(out.b[i]) > 16 * epsilon<double> * size[i] ? out.b[i] : 0.0;
