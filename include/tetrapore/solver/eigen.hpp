@@ -200,8 +200,9 @@ static_assert(network_solver<eigen_ldlt_solver>);
 /// cg.preconditioner().assign(graph, w, s);  // from conductances; without this line, from the matrix
 /// cg.compute(laplacian(graph, w, s));
 /// \endcode
-/// \tparam Real  number in which the hierarchy is kept
-template <std::floating_point Real = float>
+/// \tparam Real  number in which the hierarchy is kept; float is a quarter faster, and fails where 40 % of the conductances
+///         are 1e-18 of the others
+template <std::floating_point Real = double>
 class vcycle_preconditioner {
  public:
   using StorageIndex = int;
@@ -353,7 +354,9 @@ class eigen_cg_solver {
         report.stop = solve_stop::max_iterations;
         break;
       }
-      cg_->setTolerance(options.tolerance);
+      // a restart has only the rest of the way to go
+      cg_->setTolerance(report.iterations == 0 ? options.tolerance
+                                               : std::clamp(0.1 * target / reached, options.tolerance, 0.1));
       cg_->setMaxIterations(static_cast<Eigen::Index>(options.max_iterations - report.iterations));
       const Eigen::VectorXd step = cg_->solve(detail::as_eigen(std::span<const double>(residual_)));
       report.iterations += static_cast<std::size_t>(cg_->iterations()) + (cg_->info() == Eigen::Success ? 1U : 0U);
