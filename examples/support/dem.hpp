@@ -69,10 +69,10 @@ class dem {
   /// Force by which the grains push the base [N].
   [[nodiscard]] double base_force() const { return base_force_; }
 
-  /// A fifth of the time in which the stiffest contact swings through a radian, with a dozen contacts per grain.
+  /// Half of the time in which a grain swings through a radian on the stiffest contact: a third of the stable step.
   [[nodiscard]] double time_step() const {
     const double mass = material_.density * 4 / 3 * std::numbers::pi * smallest_ * smallest_ * smallest_;
-    return 0.2 * std::sqrt(mass / (4 * material_.modulus * smallest_));
+    return 0.5 * std::sqrt(mass / (4 * material_.modulus * smallest_));
   }
 
   /// Sets the forces to those of the contacts.

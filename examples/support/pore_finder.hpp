@@ -35,6 +35,8 @@ class pore_finder {
     }
     return std::nullopt;  // round-off on a flat cell can let the walk turn in a circle: that pixel stays empty
   }
+  /// Image of that pore: what to take off the point's coordinates.
+  [[nodiscard]] tetrapore::image image_of_last() const { return image_; }
 
  private:
   struct plane {
