@@ -51,12 +51,14 @@ template <class T>
 class pairwise_aggregation {
  public:
   /// \param inverse  1 / diagonal of each node, 0 for a node without conductance and excess
-  pairwise_aggregation(const level_rows<T>& rows, std::span<const T> excess, std::span<const T> inverse,
+  pairwise_aggregation(const level_rows<T>& rows, std::span<const T> excess, std::span<const double> inverse,
                        const hierarchy_options& how)
-      : fine_(rows), how_(how), inverse_(inverse.begin(), inverse.end()), size_(rows.size()) {
+      : fine_(rows), how_(how), inverse_(rows.size()), size_(rows.size()) {
     const T least = static_cast<T>(1 - 1 / how.dominance);
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      const bool apart = inverse[i] == T(0) || rows.offsets[i] == rows.offsets[i + 1] || excess[i] * inverse[i] > least;
+      inverse_[i] = static_cast<T>(inverse[i]);
+      const bool apart =
+          inverse_[i] == T(0) || rows.offsets[i] == rows.offsets[i + 1] || excess[i] * inverse_[i] > least;
       size_[i] = apart ? how.largest + 1 : 1;  // too large for any partner
     }
   }
@@ -389,18 +391,12 @@ class aggregation_hierarchy {
 
   /// x = M⁻¹ b, in the order of the graph.
   void apply(std::span<const double> b, std::span<double> x) {
-    double largest = 0;
-    for (const double v : b) {
-      largest = std::abs(v) > largest ? std::abs(v) : largest;
-    }
-    const double unit = power_of_two_near(largest);
     for (std::size_t i = 0; i < order_.size(); ++i) {
-      input()[i] = static_cast<T>(b[order_[i]] / unit);
+      input()[i] = b[order_[i]];
     }
-    cycle([](std::size_t, T) {});
-    const double back = unit * scale_;
+    cycle([](std::size_t, double) {});
     for (std::size_t i = 0; i < order_.size(); ++i) {
-      x[order_[i]] = back * static_cast<double>(output()[i]);
+      x[order_[i]] = scale_ * output()[i];
     }
   }
 
@@ -410,8 +406,8 @@ class aggregation_hierarchy {
   [[nodiscard]] const detail::level_rows<T>& rows() const noexcept { return levels_[0].rows; }
   [[nodiscard]] std::span<const std::uint32_t> entry_edges() const noexcept { return edges_; }
   /// `cycle` reads input() and fills output(), which then is x / scale() for the b in input().
-  [[nodiscard]] std::span<T> input() noexcept { return levels_[0].r; }
-  [[nodiscard]] std::span<const T> output() const noexcept { return levels_[0].z; }
+  [[nodiscard]] std::span<double> input() noexcept { return levels_[0].r; }
+  [[nodiscard]] std::span<const double> output() const noexcept { return levels_[0].z; }
   [[nodiscard]] double scale() const noexcept { return scale_; }
   /// \param visit  visit(i, output()[i]) as soon as it is known
   template <class Visit>
@@ -433,7 +429,7 @@ class aggregation_hierarchy {
       if (l == 0) {
         sweep_backward(levels_[l], visit);
       } else {
-        sweep_backward(levels_[l], [](std::size_t, T) {});
+        sweep_backward(levels_[l], [](std::size_t, double) {});
       }
     }
     if (direct_ && levels_.size() == 1) {
@@ -452,34 +448,30 @@ class aggregation_hierarchy {
     for (const level& l : levels_) {
       sum += index * (l.rows.offsets.capacity() + l.rows.split.capacity() + l.rows.columns.capacity() +
                       l.aggregate.capacity()) +
-             sizeof(T) * (l.rows.weights.capacity() + l.inverse.capacity() + l.r.capacity() + l.z.capacity());
+             sizeof(T) * l.rows.weights.capacity() +
+             sizeof(double) * (l.inverse.capacity() + l.r.capacity() + l.z.capacity());
     }
     return sum;
-  }
-
-  /// 2^k with 2^k ≤ v < 2^(k+1); 1 for 0.
-  [[nodiscard]] static double power_of_two_near(double v) noexcept {
-    return v > 0 ? std::ldexp(1.0, std::ilogb(v)) : 1.0;
   }
 
  private:
   struct level {
     detail::level_rows<T> rows;
-    std::vector<T> inverse;                // 1 / diagonal; 0 where nothing is attached
+    std::vector<double> inverse;           // 1 / diagonal; 0 where nothing is attached
     std::vector<std::uint32_t> aggregate;  // of each node, in the next level
-    std::vector<T> r, z;
+    std::vector<double> r, z;
 
     void prepare(const std::vector<T>& s) {
       const std::size_t n = rows.size();
       inverse.resize(n);
-      r.assign(n, T(0));
-      z.assign(n, T(0));
+      r.assign(n, 0.0);
+      z.assign(n, 0.0);
       for (std::size_t i = 0; i < n; ++i) {
-        T sum = s[i];
+        double sum = static_cast<double>(s[i]);
         for (std::uint32_t k = rows.offsets[i]; k < rows.offsets[i + 1]; ++k) {
-          sum += rows.weights[k];
+          sum += static_cast<double>(rows.weights[k]);
         }
-        inverse[i] = sum > T(0) ? T(1) / sum : T(0);
+        inverse[i] = sum > 0 ? 1 / sum : 0.0;
       }
     }
   };
@@ -539,11 +531,11 @@ class aggregation_hierarchy {
   static void sweep_forward(level& f) noexcept {
     const T* const w = f.rows.weights.data();
     const std::uint32_t* const column = f.rows.columns.data();
-    T* const z = f.z.data();
+    double* const z = f.z.data();
     for (std::size_t i = 0; i < f.rows.size(); ++i) {
-      T sum = f.r[i];
+      double sum = f.r[i];
       for (std::uint32_t k = f.rows.offsets[i]; k < f.rows.split[i]; ++k) {
-        sum += w[k] * z[column[k]];
+        sum += static_cast<double>(w[k]) * z[column[k]];
       }
       z[i] = sum * f.inverse[i];
     }
@@ -552,12 +544,12 @@ class aggregation_hierarchy {
   static void restrict_residual(const level& f, level& c) noexcept {
     const T* const w = f.rows.weights.data();
     const std::uint32_t* const column = f.rows.columns.data();
-    const T* const z = f.z.data();
-    std::fill(c.r.begin(), c.r.end(), T(0));
+    const double* const z = f.z.data();
+    std::fill(c.r.begin(), c.r.end(), 0.0);
     for (std::size_t i = 0; i < f.rows.size(); ++i) {
-      T sum(0);
+      double sum = 0;
       for (std::uint32_t k = f.rows.split[i]; k < f.rows.offsets[i + 1]; ++k) {
-        sum += w[k] * z[column[k]];
+        sum += static_cast<double>(w[k]) * z[column[k]];
       }
       if (f.aggregate[i] != detail::no_aggregate) {
         c.r[f.aggregate[i]] += sum;
@@ -565,10 +557,9 @@ class aggregation_hierarchy {
     }
   }
   void correct(level& f, const level& c) const noexcept {
-    const auto stretch = static_cast<T>(how_.stretch);
     for (std::size_t i = 0; i < f.z.size(); ++i) {
       if (f.aggregate[i] != detail::no_aggregate) {
-        f.z[i] += stretch * c.z[f.aggregate[i]];
+        f.z[i] += how_.stretch * c.z[f.aggregate[i]];
       }
     }
   }
@@ -576,11 +567,11 @@ class aggregation_hierarchy {
   static void sweep_backward(level& f, const Visit& visit) {
     const T* const w = f.rows.weights.data();
     const std::uint32_t* const column = f.rows.columns.data();
-    T* const z = f.z.data();
+    double* const z = f.z.data();
     for (std::size_t i = f.rows.size(); i-- > 0;) {
-      T sum = f.r[i];
+      double sum = f.r[i];
       for (std::uint32_t k = f.rows.offsets[i]; k < f.rows.offsets[i + 1]; ++k) {
-        sum += w[k] * z[column[k]];
+        sum += static_cast<double>(w[k]) * z[column[k]];
       }
       z[i] = sum * f.inverse[i];
       visit(i, z[i]);

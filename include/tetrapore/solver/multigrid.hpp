@@ -9,6 +9,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,13 @@
 
 namespace tetrapore::inline TETRAPORE_ABI {
 
+/// Conjugate gradients in double, preconditioned by the V-cycle of an aggregation_hierarchy; residuals in flux form.
+///
+/// Ends when the scaled residual ‖D^-½ r‖ is below tolerance · ‖D^-½ b‖, and the V-cycle of the residual evaluated anew
+/// from x, an estimate of the error of x, is nowhere above 10 · tolerance · max |x|; or when neither falls any more.
+/// \tparam Hierarchy  what the conductances of the hierarchy are held in
+/// \par Domain  any graph; made for those of packings, of few neighbours per node
+/// \par Source  Notay, Electron. Trans. Numer. Anal. 37 (2010) 123
 template <std::floating_point Hierarchy = float>
 class multigrid_solver {
  public:
@@ -37,16 +45,21 @@ class multigrid_solver {
     }
     hierarchy_.factorize(weights, excess);
     const std::size_t n = system_.size();
+    double largest = 0;
+    for (const double d : system_.diagonal()) {
+      largest = d > largest ? d : largest;
+    }
+    weight_unit_ = power_of_two_below(largest);
     weights_.resize(hierarchy_.entry_edges().size());
     for (std::size_t k = 0; k < weights_.size(); ++k) {
-      weights_[k] = weights[hierarchy_.entry_edges()[k]];
+      weights_[k] = weights[hierarchy_.entry_edges()[k]] / weight_unit_;
     }
     excess_.resize(n);
     inverse_.resize(n);
     for (std::size_t i = 0; i < n; ++i) {
       const std::uint32_t node = hierarchy_.order()[i];
-      excess_[i] = excess[node];
-      const double diagonal = system_.diagonal()[node];
+      excess_[i] = excess[node] / weight_unit_;
+      const double diagonal = system_.diagonal()[node] / weight_unit_;
       inverse_[i] = diagonal > 0 ? 1 / diagonal : 0.0;
     }
     ready_ = true;
@@ -63,23 +76,27 @@ class multigrid_solver {
     }
     const std::size_t n = system_.size();
     const auto order = hierarchy_.order();
+    double largest = 0;
+    for (const double v : system_.sources()) {
+      largest = std::abs(v) > largest ? std::abs(v) : largest;
+    }
+    const double unit = power_of_two_below(largest);
     b_.resize(n);
     x_.resize(n);
-    r_.resize(n);
     p_.resize(n);
     q_.resize(n);
-    double b_norm = 0;
+    double norm = 0;
     for (std::size_t i = 0; i < n; ++i) {
-      b_[i] = system_.sources()[order[i]];
-      x_[i] = options.warm && inverse_[i] > 0 ? x[order[i]] : 0.0;
-      b_norm += b_[i] * b_[i] * inverse_[i];
+      b_[i] = system_.sources()[order[i]] / unit;
+      x_[i] = options.warm && largest > 0 && inverse_[i] > 0 ? x[order[i]] / unit * weight_unit_ : 0.0;
+      norm += b_[i] * b_[i] * inverse_[i];
     }
-    iterate(options, std::sqrt(b_norm), report);
+    iterate(options, std::sqrt(norm), report);
     for (std::size_t i = 0; i < n; ++i) {
-      x[order[i]] = x_[i];
+      x[order[i]] = x_[i] / weight_unit_ * unit;
     }
     system_.finish(x, report);
-    if (report.ok() && !(report.backward_error <= options.tolerance)) {
+    if (report.ok() && report.stop != solve_stop::backward_error) {
       report.reason = solve_status::not_converged;
     }
     return report;
@@ -89,55 +106,110 @@ class multigrid_solver {
   [[nodiscard]] const aggregation_hierarchy<Hierarchy>& hierarchy() const noexcept { return hierarchy_; }
 
  private:
-  void iterate(const solve_options& options, double b_norm, solve_report& report) {
-    const std::size_t n = system_.size();
-    const double target = options.tolerance * b_norm;
-    double norm = true_residual(options.warm);
-    double rz = 0;
-    const auto output = hierarchy_.output();
-    for (; norm > target && report.iterations < options.max_iterations; ++report.iterations) {
-      const double unit = aggregation_hierarchy<Hierarchy>::power_of_two_near(largest_);
-      const double over = 1 / unit;
-      const auto input = hierarchy_.input();
-      for (std::size_t i = 0; i < n; ++i) {
-        input[i] = static_cast<Hierarchy>(r_[i] * over);
-      }
-      double sum = 0;
-      hierarchy_.cycle([&](std::size_t i, Hierarchy z) { sum += r_[i] * static_cast<double>(z); });
-      const double back = unit * hierarchy_.scale();
-      const double next = sum * back;
-      const double beta = rz > 0 ? next / rz : 0.0;
-      rz = next;
-      for (std::size_t i = 0; i < n; ++i) {
-        p_[i] = back * static_cast<double>(output[i]) + beta * p_[i];
-      }
-      const double energy = multiply();
-      const double alpha = rz / energy;
-#ifdef PROBE
-      PROBE(*this, norm / b_norm, rz, report.iterations);
-#endif
-      norm = advance(alpha);
-    }
-    report.stop = norm <= target ? solve_stop::backward_error : solve_stop::max_iterations;
+  static constexpr std::size_t patience = 40;  // iterations without a new lowest residual
+
+  [[nodiscard]] static double power_of_two_below(double v) noexcept {
+    return v > 0 ? std::ldexp(1.0, std::ilogb(v)) : 1.0;
   }
 
-  /// r = b − A x, flux by flux; its norm.
-  double true_residual(bool from_x) noexcept {
-    const auto& rows = hierarchy_.rows();
-    double norm = 0;
-    largest_ = 0;
-    for (std::size_t i = 0; i < r_.size(); ++i) {
-      double sum = b_[i];
-      if (from_x) {
-        sum -= excess_[i] * x_[i];
-        for (std::uint32_t k = rows.offsets[i]; k < rows.offsets[i + 1]; ++k) {
-          sum -= weights_[k] * (x_[i] - x_[rows.columns[k]]);
-        }
+  /// Runs of conjugate gradients, each from the residual of x evaluated anew, until that and its V-cycle are small.
+  void iterate(const solve_options& options, double b_norm, solve_report& report) {
+    const double target = options.tolerance * b_norm;
+    double previous = std::numeric_limits<double>::infinity();
+    report.stop = solve_stop::stagnated;
+    double norm = evaluate_residual();
+    for (bool first = true;; first = false) {
+      double rz = cycle();
+      report.error_estimate = estimate();
+      const bool small = report.error_estimate <= 10 * options.tolerance;
+      // A later run starts at what rounding left of the residual; then the estimate decides.
+      if (small && (norm <= target || !first)) {
+        report.stop = solve_stop::backward_error;
+        return;
       }
-      r_[i] = sum;
+      if (!(report.error_estimate <= 0.5 * previous) || report.iterations >= options.max_iterations) {
+        break;
+      }
+      previous = first ? previous : report.error_estimate;
+      if (!descend(norm, rz, first ? target : 1e-3 * norm, options.max_iterations, report.iterations)) {
+        norm = evaluate_residual();
+        cycle();
+        report.error_estimate = estimate();
+        break;
+      }
+      norm = evaluate_residual();
+    }
+    if (report.iterations >= options.max_iterations) {
+      report.stop = solve_stop::max_iterations;
+    }
+  }
+
+  /// Conjugate gradients from r and its V-cycle until the residual of the recurrence reaches the target; false when it
+  /// does not.
+  bool descend(double norm, double rz, double target, std::size_t limit, std::size_t& iterations) {
+    const auto z = hierarchy_.output();
+    double lowest = norm;
+    std::size_t since = 0;
+    double beta = 0;
+    while (norm > target) {
+      if (iterations >= limit || since > patience || !(rz > 0)) {
+        return false;
+      }
+      const double back = back_;
+      for (std::size_t i = 0; i < p_.size(); ++i) {
+        p_[i] = back * z[i] + beta * p_[i];
+      }
+      const double energy = multiply();
+      if (!(energy > 0)) {
+        return false;
+      }
+      norm = advance(rz / energy);
+      ++iterations;
+      since = norm < 0.9 * lowest ? 0 : since + 1;
+      lowest = norm < lowest ? norm : lowest;
+      if (norm > target) {
+        const double next = cycle();
+        beta = next / rz;
+        rz = next;
+      }
+    }
+    return true;
+  }
+
+  /// z = M⁻¹ r; rᵀ z.
+  double cycle() {
+    back_ = hierarchy_.scale() * weight_unit_;
+    const auto r = hierarchy_.input();
+    double sum = 0;
+    hierarchy_.cycle([&](std::size_t i, double z) { sum += r[i] * z; });
+    return sum * back_;
+  }
+  /// max |z| / max |x|.
+  [[nodiscard]] double estimate() const noexcept {
+    const auto z = hierarchy_.output();
+    double z_norm = 0;
+    double x_norm = 0;
+    for (std::size_t i = 0; i < x_.size(); ++i) {
+      z_norm = std::fmax(z_norm, std::abs(z[i]));
+      x_norm = std::fmax(x_norm, std::abs(x_[i]));
+    }
+    z_norm *= back_;
+    return x_norm > 0 ? z_norm / x_norm : (z_norm > 0 ? std::numeric_limits<double>::infinity() : 0.0);
+  }
+
+  /// r = b − A x, flux by flux; ‖D^-½ r‖. Starts a new run.
+  double evaluate_residual() noexcept {
+    const auto& rows = hierarchy_.rows();
+    const auto r = hierarchy_.input();
+    double norm = 0;
+    for (std::size_t i = 0; i < r.size(); ++i) {
+      double sum = b_[i] - excess_[i] * x_[i];
+      for (std::uint32_t k = rows.offsets[i]; k < rows.offsets[i + 1]; ++k) {
+        sum -= weights_[k] * (x_[i] - x_[rows.columns[k]]);
+      }
+      r[i] = sum;
       p_[i] = 0;
       norm += sum * sum * inverse_[i];
-      largest_ = std::fmax(largest_, std::abs(sum));
     }
     return std::sqrt(norm);
   }
@@ -156,30 +228,26 @@ class multigrid_solver {
     }
     return energy;
   }
-  /// x += α p, r −= α q; the norm of r.
+  /// x += α p, r −= α q; ‖D^-½ r‖.
   double advance(double alpha) noexcept {
+    const auto r = hierarchy_.input();
     double norm = 0;
-    double largest = 0;
-    for (std::size_t i = 0; i < r_.size(); ++i) {
+    for (std::size_t i = 0; i < r.size(); ++i) {
       x_[i] += alpha * p_[i];
-      const double r = r_[i] - alpha * q_[i];
-      r_[i] = r;
-      norm += r * r * inverse_[i];
-      largest = std::abs(r) > largest ? std::abs(r) : largest;
+      r[i] -= alpha * q_[i];
+      norm += r[i] * r[i] * inverse_[i];
     }
-    largest_ = largest;
     return std::sqrt(norm);
   }
-#ifdef PROBE
- public:
-#endif
+
   pressure_system system_;
   aggregation_hierarchy<Hierarchy> hierarchy_;
   bool ready_ = false;
-  // in the numbering of the hierarchy
+  // In the numbering of the hierarchy, and in units of powers of two that make the largest diagonal and source about 1.
+  double weight_unit_ = 1;
   std::vector<double> weights_, excess_, inverse_;
-  std::vector<double> b_, x_, r_, p_, q_;
-  double largest_ = 0;  // |r_i|
+  std::vector<double> b_, x_, p_, q_;
+  double back_ = 1;  // from the hierarchy's output to x
 };
 static_assert(network_solver<multigrid_solver<>>);
 

@@ -61,7 +61,7 @@ enum class solve_status : unsigned char {
 enum class solve_stop : unsigned char {
   none,            ///< nothing was iterated: refused
   direct,          ///< a factor was applied
-  backward_error,  ///< the backward error is below the tolerance
+  backward_error,  ///< the residual, and the estimated error where there is one, are below the tolerance
   stagnated,       ///< the residual has ceased to fall: rounding allows no less
   max_iterations
 };
@@ -70,7 +70,7 @@ enum class solve_stop : unsigned char {
   switch (s) {
     case solve_stop::none: return "nothing was solved";
     case solve_stop::direct: return "direct";
-    case solve_stop::backward_error: return "backward error below the tolerance";
+    case solve_stop::backward_error: return "residual below the tolerance";
     case solve_stop::stagnated: return "stagnated";
     case solve_stop::max_iterations: return "largest number of iterations";
   }
@@ -79,7 +79,9 @@ enum class solve_stop : unsigned char {
 
 /// How a system is to be solved.
 struct solve_options {
-  double tolerance = 1e-10;          ///< on the backward error
+  /// On the scaled residual ‖D^-½ r‖ / ‖D^-½ b‖, D the diagonal, and with it on the backward error. A multigrid solver
+  /// also has its estimated error of x, relative to the largest |x|, below ten times as much.
+  double tolerance = 1e-10;
   std::size_t max_iterations = 500;  ///< of an iterative solver
   bool warm = false;                 ///< x holds a guess on entry
   /// A cluster without excess is balanced when |Σ b| ≤ balance · Σ |b| + balance_floor over its nodes. What is left of
@@ -100,6 +102,10 @@ struct solve_report {
   std::size_t worst_node = none;  ///< where it is
   /// ‖r‖ / (‖b‖ + ‖A‖ ‖x‖) in the largest norm, of the x that is returned.
   double backward_error = 0;
+  /// Estimated largest error of x over the largest |x|: the preconditioner applied to the residual, which multigrid
+  /// solvers check before they stop. A normwise backward error says little where conductances differ by 1e17; this does.
+  /// Negative: not estimated.
+  double error_estimate = -1;
   std::size_t index = none;           ///< node or edge that the reason is about
   std::size_t clusters = 0;           ///< connected by positive conductances; an isolated node is one
   std::size_t floating_clusters = 0;  ///< those without excess
