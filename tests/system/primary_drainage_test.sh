@@ -4,28 +4,7 @@
 # option and every bad input, and checks the keys on stdout, the files, the messages and the exit codes.
 set -uo pipefail
 binary=$(realpath "$1")/primary_drainage
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-cd "$folder"
-failures=0
-
-fail() {
-  echo "FAILED: $*"
-  failures=$((failures + 1))
-}
-
-# 343 grains on a shaken lattice in the unit box: "box", then x y z r.
-make_packing() {
-  awk 'BEGIN {
-    s = 1; n = 7
-    if (ARGV[1] == "box") print "# box 0 1 0 1 0 1"
-    for (i = 0; i < n; ++i) for (j = 0; j < n; ++j) for (k = 0; k < n; ++k) {
-      for (m = 0; m < 4; ++m) { s = (s * 16807) % 2147483647; u[m] = s / 2147483647 - 0.5 }
-      r = 0.46 / n * (1 + 0.2 * u[3])
-      printf "%.9f %.9f %.9f %.9f\n", (i + 0.5 + 0.05 * u[0]) / n, (j + 0.5 + 0.05 * u[1]) / n, (k + 0.5 + 0.05 * u[2]) / n, r
-    }
-  }' "$1" </dev/null
-}
+source "$(dirname "$(realpath "${BASH_SOURCE[0]}")")/common.sh"
 make_packing box >beads.txt
 make_packing none >no_box.txt
 
@@ -34,10 +13,6 @@ entry_closed entry_refused pc_s90 pc_s70 pc_s50 pc_s30 residual_saturation resid
 van_genuchten_alpha van_genuchten_n fit_rms seconds_read seconds_tessellation seconds_laws seconds_invasion seconds_write \
 peak_rss_mb"
 files="events.csv grains.vtp phases phases.pvd phases_s40.png pores.vtu retention.csv retention.svg sizes.csv"
-
-value() { sed -n "s/^$1=//p" stdout; }
-holds() { awk -v x="$1" "BEGIN { exit !(x $2) }"; }
-expect() { holds "$(value "$1")" "$2" || fail "$title: $1=$(value "$1"), expected $2"; }
 
 # runs TITLE ARGUMENTS…: must succeed, with the keys in their order and all files.
 runs() {
@@ -194,8 +169,4 @@ code=0
 grep -q "occupied" stderr || fail "unwritable folder: said $(cat stderr)"
 [ ! -s stdout ] || fail "unwritable folder: wrote on stdout"
 
-if [ "$failures" -gt 0 ]; then
-  echo "$failures failures"
-  exit 1
-fi
-echo "ok"
+report
