@@ -136,13 +136,13 @@ class small_flow {
     return k;
   }
 
-  struct answer {
+  struct solution {
     tetrapore::vec3<double> mean_flux;  ///< per mean gradient: a row of the permeability over the viscosity
     std::vector<double> drop;           ///< pressure difference per throat
   };
 
   /// Mean pressure gradient -1 along an axis.
-  [[nodiscard]] answer solve(const std::vector<double>& conductance, std::size_t axis) const {
+  [[nodiscard]] solution solve(const std::vector<double>& conductance, std::size_t axis) const {
     using tetrapore::vec3;
     const std::size_t m = throats_.size();
     std::vector<double> imposed(m);
@@ -191,7 +191,7 @@ class small_flow {
       }
       old = rz;
     }
-    answer a{{}, std::vector<double>(m)};
+    solution a{{}, std::vector<double>(m)};
     for (std::size_t t = 0; t < m; ++t) {
       const small_throat& s = throats_[t];
       a.drop[t] = p[s.node[0]] - p[s.node[1]] + imposed[t];
@@ -207,7 +207,7 @@ class small_flow {
   }
 
   /// Force of the fluid on each grain: the pressure on its disc in each facet, and its share of the shear.
-  [[nodiscard]] std::vector<tetrapore::vec3<double>> forces(const answer& a) const {
+  [[nodiscard]] std::vector<tetrapore::vec3<double>> forces(const solution& a) const {
     using namespace tetrapore;
     std::vector<vec3<double>> f(grains_);
     for (std::size_t t = 0; t < throats_.size(); ++t) {

@@ -38,6 +38,8 @@ template <real T>
 /// into account. Exact for a straight round tube.
 /// \par Units   viscosity [Pa s], result [m³/(Pa s)]
 /// \par Domain  throats with fluid area and two nodes, whose discs leave room for a circle
+/// \par Accuracy  rounding: 1.1e-16 (64 + κ), κ as for hydraulic_radius. Permeability over that of Stokes flow: 0.41 to
+///                0.79 in cubic lattices of solid fraction 0.3 to 0.74, 0.57 to 0.61 in a random packing of 0.60
 /// \par Source  the effective radius of Bryant & Blunt 1992, Phys. Rev. A 46, 2004, and of Thompson 2002, AIChE J. 48,
 ///              1369, on the facets of a triangulation
 struct mean_radius {
