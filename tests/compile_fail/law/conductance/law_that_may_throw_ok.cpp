@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A law is noexcept: a driver calls it in the middle of a loop.
+#include "tetrapore/law/conductance/concept.hpp"
+
+struct mine {
+  tetrapore::outcome<double, tetrapore::conductance_status> conductance(const tetrapore::throat<double>&) const noexcept {
+    return {1.0, tetrapore::conductance_status::ok};
+  }
+};
+static_assert(tetrapore::conductance_law<mine>);
