@@ -88,6 +88,19 @@ class saturated_flow {
     x_.clear();
   }
 
+  /// Conductances of the caller's own, until the next update: one per throat, at least 0 [m³/(Pa s)]. Those on the
+  /// boundary and inside nodes play no part.
+  /// \throw parameter_error  another number of them
+  void set_conductances(std::vector<double> values) {
+    if (values.size() != net_->throat_count()) {
+      throw parameter_error("conductances", std::to_string(values.size()),
+                            std::to_string(net_->throat_count()) + ", one per throat");
+    }
+    conductances_ = {std::move(values), {}};
+    x_.clear();
+    factorized_ = false;
+  }
+
   /// The steady flow that balances the volume rates.
   /// \throw network_error  naming the cluster of pores that nothing ties to a level and whose sources do not sum to
   ///                       zero, or the pore or throat with a number that is not finite. The pressure is unchanged then
