@@ -106,13 +106,16 @@ class cholmod_factorization {
     s_->more_work.reset(nullptr);
     triangle_ = lower_triangle<SuiteSparse_long>(graph);
     values_.assign(triangle_.rows().size(), 1.0);
+    place_.resize(triangle_.size());
+    if (place_.empty()) {
+      return;
+    }
     cholmod_sparse matrix = view();
     s_->symbolic.reset(cholmod_l_analyze(&matrix, s_->session.get()));
     if (!s_->symbolic) {
       throw std::bad_alloc();
     }
     const auto* order = static_cast<const SuiteSparse_long*>(s_->symbolic->Perm);
-    place_.resize(triangle_.size());
     for (std::size_t k = 0; k < place_.size(); ++k) {
       place_[static_cast<std::size_t>(order[k])] = static_cast<SuiteSparse_long>(k);
     }
