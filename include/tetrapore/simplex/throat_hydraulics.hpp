@@ -47,15 +47,18 @@ struct throat_hydraulics {
   }
 };
 
-/// Volumes and surfaces of a throat domain. From a grain a wall is a direction, as in a cell: the solid angle at grain k
-/// is that of the spherical quadrangle (a, node 0, b, node 1), a and b being the other two vertices. The angles are
+/// Volumes and surfaces of a throat domain. From a grain a wall is a direction, as in a cell: the solid angle at grain
+/// k is that of the spherical quadrangle (a, node 0, b, node 1), a and b being the other two vertices. The angles are
 /// signed, with the sign of the whole domain: where the axis between the nodes misses the facet, one of the two
 /// triangles of the quadrangle counts negative.
 /// \par Units  [m] -> [m], [m²], [m³]
 /// \par Domain  any throat; of coincident nodes length, volumes and wetted areas are 0. Sectors of grains that overlap,
 ///              or that reach beyond a wall, count whole
-/// \par Source  Chareyre et al. 2012, Transp. Porous Media 92, 473, Eqs. (15)-(17), with signed angles; a wall is wetted
-///              on the projection of the nodes and of the edge of the facet on it
+/// \par Accuracy  wetted areas 7e-16 r² absolute in random throats (tests/analytical/simplex/throat_hydraulics_test.cpp);
+///                of all throats of a packing the volumes sum to the box, the angles at each grain to 4π and the
+///                wetted areas of a wall to its face, to 1e-12 (tests/analytical/system/throat_domain_test.cpp)
+/// \par Source  Chareyre et al. 2012, Transp. Porous Media 92, 473, with signed angles; a wall is wetted on the
+///              projection of the nodes and of the edge of the facet on it
 template <real T>
 [[nodiscard]] outcome<throat_hydraulics<T>, geometry_status> hydraulics_of(const throat<T>& t) noexcept {
   TETRAPORE_EXPECTS(t.grain_count >= 1 && t.grain_count <= 3, "a throat has one to three grains");
@@ -79,9 +82,16 @@ template <real T>
       const sphere<T>& g = t.grains[k];
       const vec3<T> from = t.nodes[0] - g.centre;
       const vec3<T> to = t.nodes[1] - g.centre;
-      const T angle = h.length > T(0) ? solid_angle(towards(k, (k + 1) % 3), from, to) +
-                                            solid_angle(towards(k, (k + 2) % 3), to, from)
-                                      : T(0);
+      const T from_length = norm(from);
+      const T to_length = norm(to);
+      // with the axis itself in the volume, a cone between two close nodes keeps its digits
+      const auto cone = [&](const vec3<T>& a) noexcept {
+        using std::atan2;
+        const T length = norm(a);
+        return T(2) *
+               atan2(triple(a, from, axis), detail::half_angle_cosine(a, from, to, length, from_length, to_length));
+      };
+      const T angle = h.length > T(0) ? cone(towards(k, (k + 1) % 3)) - cone(towards(k, (k + 2) % 3)) : T(0);
       h.wetted_area[k] = g.radius * g.radius * (reversed ? -angle : angle);
       h.solid_volume = h.solid_volume + g.radius * h.wetted_area[k] / T(3);
     } else {
