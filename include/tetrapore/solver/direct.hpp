@@ -4,6 +4,7 @@
 #include "tetrapore/solver/concept.hpp"
 #include "tetrapore/solver/pressure_system.hpp"
 
+#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <span>
@@ -28,8 +29,9 @@ concept pressure_factor = std::default_initializable<F> &&
                           };
 
 /// Solves with a factor, and refines the solution by residuals in flux form until the scaled residual
-/// ‖D^-½ r‖ / ‖D^-½ b‖ is below the tolerance or no longer halves; at least as often as the factor's member
-/// `refinements()` asks for, if it has one. With options.warm it begins from x instead of the factor's solution.
+/// ‖D^-½ r‖ / ‖D^-½ b‖ is below the tolerance, or corrections no longer halve. A factor of an assembled matrix has a
+/// member `refinements()`: where that is above 0, the solution is refined so often at least, and on until the next
+/// correction promises less than 1e-12 of x. With options.warm it begins from x instead of the factor's solution.
 /// \par Accuracy  that of the factor where it is subtraction-free; else refinement mends what assembling the diagonal
 /// lost as long as the factor is right in its first digit
 template <pressure_factor Factor>
@@ -68,32 +70,31 @@ class direct_solver {
     residual_.resize(x.size());
     correction_.resize(x.size());
     const double target = options.tolerance * system_.scaled_norm(system_.sources());
-    system_.residual(system_.sources(), x, residual_);
-    double reached = system_.scaled_norm(residual_);
     std::size_t wanted = 0;
     if constexpr (requires { factor_.refinements(); }) {
       wanted = factor_.refinements();
     }
-    while ((reached > target || (report.iterations < wanted && reached > 0)) &&
-           report.iterations < options.max_iterations) {
-      ++report.iterations;
+    double change = largest(x);  // of the last correction; at first x stands for it
+    double left = 0;             // what the next correction is expected to be
+    for (bool start = options.warm;; start = false) {
+      system_.residual(system_.sources(), x, residual_);
+      const double scaled = system_.scaled_norm(residual_);
+      const bool due = scaled > target || report.iterations < wanted || (wanted > 0 && left > 1e-12 * largest(x));
+      if (!due || !(scaled > 0) || report.iterations >= options.max_iterations) {
+        break;
+      }
       factor_.apply(residual_, correction_);
+      const double next = largest(correction_);
+      const bool falls = next <= 0.5 * change;
+      if (!falls && !start) {
+        break;
+      }
       for (std::size_t i = 0; i < x.size(); ++i) {
         x[i] += correction_[i];
       }
-      system_.residual(system_.sources(), x, residual_);
-      const double next = system_.scaled_norm(residual_);
-      if (!(next < reached)) {
-        for (std::size_t i = 0; i < x.size(); ++i) {
-          x[i] -= correction_[i];
-        }
-        break;
-      }
-      const bool halved = next <= 0.5 * reached;
-      reached = next;
-      if (!halved) {
-        break;
-      }
+      ++report.iterations;
+      left = falls ? next * (next / change) : next;
+      change = next;
     }
     report.stop = solve_stop::direct;
     system_.finish(x, report);
@@ -110,6 +111,14 @@ class direct_solver {
   [[nodiscard]] Factor& factor() noexcept { return factor_; }
 
  private:
+  [[nodiscard]] static double largest(std::span<const double> v) noexcept {
+    double most = 0;
+    for (const double e : v) {
+      most = std::abs(e) > most ? std::abs(e) : most;
+    }
+    return most;
+  }
+
   pressure_system system_;
   Factor factor_;
   bool ready_ = false;

@@ -367,7 +367,7 @@ class eigen_cg_solver {
         detail::as_eigen(x) -= step;
       }
       if (!(next <= 0.5 * reached)) {
-        report.stop = solve_stop::stagnated;
+        report.stop = report.iterations >= options.max_iterations ? solve_stop::max_iterations : solve_stop::stagnated;
         break;
       }
       reached = next;
