@@ -196,8 +196,11 @@ void reports_the_true_residual() {
 
 template <class Solver>
 void gives_the_same_bits_and_factors_again() {
-  const pressure_case c = packing_like(12, 1.0, 3);
-  pressure_case other = packing_like(12, 1.0, 3);
+  pressure_case c = packing_like(12, 1.0, 3);
+  for (double& excess : c.s) {
+    excess += 0.01;  // no cluster floats
+  }
+  pressure_case other = c;
   scale_some(other, 0.5, 7.0, 1);
   std::vector<double> first;
   std::vector<double> alone;

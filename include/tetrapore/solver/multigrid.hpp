@@ -113,47 +113,48 @@ class multigrid_solver {
   }
 
   /// Runs of conjugate gradients, each from the residual of x evaluated anew, until that and its V-cycle are small.
+  /// After the first run the residual is what rounding leaves of it in stiff pairs, and only the estimate decides.
   void iterate(const solve_options& options, double b_norm, solve_report& report) {
     const double target = options.tolerance * b_norm;
-    double previous = std::numeric_limits<double>::infinity();
-    report.stop = solve_stop::stagnated;
     double norm = evaluate_residual();
-    for (bool first = true;; first = false) {
-      double rz = cycle();
-      report.error_estimate = estimate();
-      const bool small = report.error_estimate <= 10 * options.tolerance;
-      // A later run starts at what rounding left of the residual; then the estimate decides.
-      if (small && (norm <= target || !first)) {
-        report.stop = solve_stop::backward_error;
+    double rz = cycle();
+    double error = estimate();
+    report.error_estimate = error;
+    std::size_t fruitless = 0;
+    for (bool first = true; !(error <= 10 * options.tolerance && (norm <= target || !first)); first = false) {
+      if (report.iterations >= options.max_iterations || fruitless > 2) {
+        report.stop = fruitless > 2 ? solve_stop::stagnated : solve_stop::max_iterations;
+        if (report.error_estimate < error) {
+          x_ = best_;
+        }
         return;
       }
-      if (!(report.error_estimate <= 0.5 * previous) || report.iterations >= options.max_iterations) {
-        break;
-      }
-      previous = first ? previous : report.error_estimate;
-      if (!descend(norm, rz, first ? target : 1e-3 * norm, options.max_iterations, report.iterations)) {
-        norm = evaluate_residual();
-        cycle();
-        report.error_estimate = estimate();
-        break;
-      }
+      descend(norm, rz, first ? target : 1e-6 * norm, options.max_iterations, report.iterations);
       norm = evaluate_residual();
+      rz = cycle();
+      error = estimate();
+      fruitless = error < 0.5 * report.error_estimate ? 0 : fruitless + 1;
+      if (!(error >= report.error_estimate)) {
+        report.error_estimate = error;
+        if (!(error <= 10 * options.tolerance)) {
+          best_ = x_;
+        }
+      }
     }
-    if (report.iterations >= options.max_iterations) {
-      report.stop = solve_stop::max_iterations;
-    }
+    report.error_estimate = error;
+    report.stop = solve_stop::backward_error;
   }
 
-  /// Conjugate gradients from r and its V-cycle until the residual of the recurrence reaches the target; false when it
-  /// does not.
-  bool descend(double norm, double rz, double target, std::size_t limit, std::size_t& iterations) {
+  /// Conjugate gradients from r and its V-cycle until the residual of the recurrence reaches the target, or has ceased
+  /// to fall.
+  void descend(double norm, double rz, double target, std::size_t limit, std::size_t& iterations) {
     const auto z = hierarchy_.output();
     double lowest = norm;
     std::size_t since = 0;
     double beta = 0;
     while (norm > target) {
       if (iterations >= limit || since > patience || !(rz > 0)) {
-        return false;
+        return;
       }
       const double back = back_;
       for (std::size_t i = 0; i < p_.size(); ++i) {
@@ -161,7 +162,7 @@ class multigrid_solver {
       }
       const double energy = multiply();
       if (!(energy > 0)) {
-        return false;
+        return;
       }
       norm = advance(rz / energy);
       ++iterations;
@@ -173,7 +174,6 @@ class multigrid_solver {
         rz = next;
       }
     }
-    return true;
   }
 
   /// z = M⁻¹ r; rᵀ z.
@@ -247,7 +247,8 @@ class multigrid_solver {
   double weight_unit_ = 1;
   std::vector<double> weights_, excess_, inverse_;
   std::vector<double> b_, x_, p_, q_;
-  double back_ = 1;  // from the hierarchy's output to x
+  std::vector<double> best_;  // x of the least estimated error, where the first run did not suffice
+  double back_ = 1;           // from the hierarchy's output to x
 };
 static_assert(network_solver<multigrid_solver<>>);
 
