@@ -18,12 +18,15 @@ namespace throats {
 
 using namespace tetrapore;
 
-template <real T>
-[[nodiscard]] throat<T> as(const throat<double>& t) {
-  const auto point = [](const vec3<double>& v) -> vec3<T> { return {T(v.x), T(v.y), T(v.z)}; };
+/// The same throat in another scalar.
+template <real T, std::floating_point S>
+[[nodiscard]] throat<T> as(const throat<S>& t) {
+  using value_type = underlying_t<T>;
+  const auto number = [](const S& x) { return T(static_cast<value_type>(x)); };
+  const auto point = [&](const vec3<S>& v) -> vec3<T> { return {number(v.x), number(v.y), number(v.z)}; };
   throat<T> r{};
   for (std::size_t k = 0; k < 3; ++k) {
-    r.grains[k] = {point(t.grains[k].centre), T(t.grains[k].radius)};
+    r.grains[k] = {point(t.grains[k].centre), number(t.grains[k].radius)};
   }
   for (std::size_t k = 0; k < 2; ++k) {
     r.walls[k] = {point(t.walls[k].point), point(t.walls[k].normal)};

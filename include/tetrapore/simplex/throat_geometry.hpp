@@ -62,15 +62,45 @@ struct facet_areas {
   [[nodiscard]] constexpr T fluid() const noexcept { return whole - (disc[0] + disc[1] + disc[2]); }
 };
 
+/// The areas where discs are whole sectors: three of them, apart from each other and from the opposite edges. Returns
+/// false where they are not.
+template <real T>
+[[nodiscard]] bool whole_sectors(const throat<T>& t, facet_areas<T>& out) noexcept {
+  using std::atan2;
+  using std::sqrt;
+  const std::array<vec3<T>, 3> edge{t.grains[2].centre - t.grains[1].centre, t.grains[0].centre - t.grains[2].centre,
+                                    t.grains[1].centre - t.grains[0].centre};
+  const T twice2 = norm2(cross(edge[1], edge[2]));
+  for (std::size_t k = 0; k < 3; ++k) {
+    const T length2 = norm2(edge[k]);
+    const T r = t.grains[k].radius;
+    const T sum = t.grains[(k + 1) % 3].radius + t.grains[(k + 2) % 3].radius;
+    if (!(sum * sum <= length2) || !(r * r * length2 <= twice2)) {
+      return false;
+    }
+  }
+  const T twice = sqrt(twice2);
+  out.whole = twice * T(0.5);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const T r = t.grains[k].radius;
+    out.disc[k] = r * r * atan2(twice, -dot(edge[(k + 1) % 3], edge[(k + 2) % 3])) * T(0.5);
+  }
+  return true;
+}
+
 template <real T>
 [[nodiscard]] facet_areas<T> areas_in_facet(const throat<T>& t) noexcept {
+  facet_areas<T> out{T(0), {T(0), T(0), T(0)}};
+  if (t.grain_count == 3 && whole_sectors(t, out)) {
+    return out;
+  }
   const plane_polygon<T> whole = facet_in_plane(t);
   std::array<disc<T>, 3> discs{};
   for (std::size_t k = 0; k < t.grain_count; ++k) {
     // of a trapezoid the second centre is the last corner
     discs[k] = {whole.corners[t.grain_count == 2 && k == 1 ? 3 : k], t.grains[k].radius};
   }
-  facet_areas<T> out{whole.area(), {T(0), T(0), T(0)}};
+  out.whole = whole.area();
   for (std::size_t i = 0; i < t.grain_count; ++i) {
     plane_polygon<T> part = whole;
     for (std::size_t j = 0; j < t.grain_count; ++j) {

@@ -54,13 +54,14 @@ struct throat_hydraulics {
 /// \par Units  [m] -> [m], [m²], [m³]
 /// \par Domain  any throat; of coincident nodes length, volumes and wetted areas are 0. Sectors of grains that overlap,
 ///              or that reach beyond a wall, count whole
-/// \par Accuracy  wetted areas 7e-16 r² absolute in random throats (tests/analytical/simplex/throat_hydraulics_test.cpp);
-///                of all throats of a packing the volumes sum to the box, the angles at each grain to 4π and the
-///                wetted areas of a wall to its face, to 1e-12 (tests/analytical/system/throat_domain_test.cpp)
+/// \par Accuracy  wetted areas of random throats 7e-16 r², absolute (tests/analytical/simplex/). Of all throats of a
+///                packing the volumes sum to the box, the angles at each grain to 4π and the wetted areas of a wall to
+///                its face, to 1e-12 (tests/analytical/system/throat_domain_test.cpp)
 /// \par Source  Chareyre et al. 2012, Transp. Porous Media 92, 473, with signed angles; a wall is wetted on the
 ///              projection of the nodes and of the edge of the facet on it
 template <real T>
 [[nodiscard]] outcome<throat_hydraulics<T>, geometry_status> hydraulics_of(const throat<T>& t) noexcept {
+  using std::atan2;
   TETRAPORE_EXPECTS(t.grain_count >= 1 && t.grain_count <= 3, "a throat has one to three grains");
   const detail::facet_areas<T> areas = detail::areas_in_facet(t);
   const vec3<T> axis = t.nodes[1] - t.nodes[0];
@@ -84,14 +85,14 @@ template <real T>
       const vec3<T> to = t.nodes[1] - g.centre;
       const T from_length = norm(from);
       const T to_length = norm(to);
-      // with the axis itself in the volume, a cone between two close nodes keeps its digits
-      const auto cone = [&](const vec3<T>& a) noexcept {
-        using std::atan2;
-        const T length = norm(a);
-        return T(2) *
-               atan2(triple(a, from, axis), detail::half_angle_cosine(a, from, to, length, from_length, to_length));
+      // Half of each triangle's angle as a complex number, their difference by a product. With the axis itself in the
+      // volume, a cone between two close nodes keeps its digits.
+      const auto cone = [&](const vec3<T>& a) noexcept -> vec2<T> {
+        return {detail::half_angle_cosine(a, from, to, norm(a), from_length, to_length), triple(a, from, axis)};
       };
-      const T angle = h.length > T(0) ? cone(towards(k, (k + 1) % 3)) - cone(towards(k, (k + 2) % 3)) : T(0);
+      const vec2<T> first = cone(towards(k, (k + 1) % 3));
+      const vec2<T> second = cone(towards(k, (k + 2) % 3));
+      const T angle = h.length > T(0) ? T(2) * atan2(cross(second, first), dot(first, second)) : T(0);
       h.wetted_area[k] = g.radius * g.radius * (reversed ? -angle : angle);
       h.solid_volume = h.solid_volume + g.radius * h.wetted_area[k] / T(3);
     } else {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Conductances of Yade's triangulation of open_200 and open_1000, unclamped, facet by facet. Its formula differs from
-// ours in two places: solid angles without a sign, and walls that are spheres. The segment of a disc that reaches across
-// the opposite edge is in both (two facets of each packing have one, and only one).
+// ours in two places: solid angles without a sign, and walls that are spheres. The segment of a disc that reaches
+// across the opposite edge is in both (two facets of each packing have one, and only one).
 #include "support/gzip.hpp"
 #include "support/shared_data.hpp"
 #include "tetrapore/geometry/area.hpp"

@@ -14,18 +14,19 @@ namespace tetrapore::inline TETRAPORE_ABI {
 /// the throat does not widen towards its pores. Openness H, 0 where the grains touch and 1 where they are far apart:
 /// the harmonic mean of 1 − (1 + g / 4R)⁻³ + δ over the three edges, less δ = 0.092, where g is the gap of an edge
 /// (overlaps are closed) and R = r r'/(r + r'); each edge counts by the share of the facet between it and the axis, so
-/// that an edge across the middle of a hole does not count. Void ratio e: fluid over solid in the domain. A grain beside
-/// a slip wall is beside its mirror image.
+/// that an edge across the middle of a hole does not count. Void ratio e: fluid over solid in the domain. A grain at a
+/// slip wall faces its mirror image.
 ///
 /// Limits: a straight tube between grains that touch (c = 1, H = 0) has the conductance of the hydraulic radius; in an
 /// open packing F grows as e, so that k falls from the 1/s² of Kozeny to the 1/s of Stokes' law (s: solid fraction).
 /// \par Units   viscosity [Pa s], result [m³/(Pa s)]
 /// \par Domain  throats with fluid area and two nodes; positive hydraulic radius. Fitted to equal spheres; walls and
 ///              unequal spheres follow by the formulas above, without a fit
-/// \par Accuracy  permeability over that of Stokes flow (tests/truth/system/conductance_test.cpp), cubic lattices of solid
-///                fraction 0.3 to 0.7405: 0.96 to 1.03, from 0.55 on 0.97 to 1.03; simple cubic from 0.027 on 0.99 to
-///                1.07; a random packing of 0.60: 1.01 to 1.02, forces on its grains 4.8 to 5.1 % off (L2; by the
-///                hydraulic radius 7.2 to 9.1 %). Fitted without the random packing the form gives 1.07 there
+/// \par Accuracy  permeability over that of Stokes flow (tests/truth/system/conductance_test.cpp): cubic lattices of
+///                solid fraction 0.3 to 0.7405: 0.96 to 1.03, from 0.55 on 0.97 to 1.03; simple cubic from 0.027 on
+///                0.96 to 1.07; a random packing of 0.60: 1.01 to 1.02, forces on its grains 4.8 to 5.1 % off (L2; by
+///                the hydraulic radius 7.2 to 9.1 %). Fitted without the random packing the form gives 1.07 there.
+///                Rounding: 1e-16 (64 + κ), κ as for hydraulic_radius
 /// \par Source  own fit (five numbers, the power 1/16 among them) to the drag of Zick & Homsy 1982, J. Fluid Mech. 115,
 ///              13, and of lattice-Boltzmann runs: simple cubic .027 .343 .5236, body-centred .5 .6802, face-centred .3
 ///              .6 .7405 and one random packing along x; tested on simple cubic .064 .125 .216 .45, body-centred .3 .6,

@@ -11,9 +11,10 @@ namespace tetrapore::inline TETRAPORE_ABI {
 /// \par Units   viscosity [Pa s], result [m³/(Pa s)]
 /// \par Domain  throats with fluid area and two nodes; R_h > 0
 /// \par Accuracy  rounding: 1e-16 (64 + κ), κ the sum of the relative changes of K by the relative changes of what the
-///                throat is made of (tests/property/law/conductance_property_test.cpp). Permeability over that of Stokes
-///                flow: 0.92 to 1.02 in cubic lattices at contact, 1.15 in a random packing of solid fraction 0.60, 1.4
-///                to 1.5 at 0.6 and 2.6 at 0.3 in body- and face-centred lattices (tests/truth/system/conductance_test.cpp)
+///                throat is made of (tests/property/law/conductance_property_test.cpp). Permeability over that of
+///                Stokes flow (tests/truth/system/conductance_test.cpp): 0.92 to 1.02 in cubic lattices at contact,
+///                1.15 in a random packing of solid fraction 0.60; in body- and face-centred lattices 1.4 to 1.5 at
+///                0.6, and 2.6 to 2.7 at 0.3
 /// \par Source  Chareyre et al. 2012, Transp. Porous Media 92, 473; Chareyre et al., EPJ Web Conf. 140,
 ///              09027 (2017), §2.2
 struct hydraulic_radius {

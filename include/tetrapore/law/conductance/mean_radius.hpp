@@ -33,9 +33,9 @@ template <real T>
 
 }  // namespace detail
 
-/// Conductance by the mean of two radii of the facet, that of the inscribed circle and that of the circle of equal fluid
-/// area: K = A R² / (8 μ L), R = (r_inscribed + √(A/π)) / 2. It looks at the facet alone and takes no shear on walls
-/// into account. Exact for a straight round tube.
+/// Conductance by the mean of two radii of the facet, that of the inscribed circle and that of the circle of equal
+/// fluid area: K = A R² / (8 μ L), R = (r_inscribed + √(A/π)) / 2. It looks at the facet alone and takes no shear on
+/// walls into account. Exact for a straight round tube.
 /// \par Units   viscosity [Pa s], result [m³/(Pa s)]
 /// \par Domain  throats with fluid area and two nodes, whose discs leave room for a circle
 /// \par Accuracy  rounding: 1.1e-16 (64 + κ), κ as for hydraulic_radius. Permeability over that of Stokes flow: 0.41 to
