@@ -26,15 +26,16 @@ macro(tetrapore_require_package package target debian)
 endmacro()
 
 # What a program links follows from what its sources include, through our own headers: one row per dependency, the start
-# of the included name (a regular expression), then a component of tetrapore, or a package, its target and its Debian
-# package.
-set(tetrapore_dependency_rows cgal eigen cholmod cli png eigen_oracle)
+# of the included name (a regular expression), then nothing for a component of tetrapore; a package, its target and its
+# Debian package; or a target of our own.
+set(tetrapore_dependency_rows cgal eigen cholmod cli png eigen_oracle compiled_triangulation)
 set(tetrapore_dependency_cgal "tetrapore/tessellation/cgal\\.hpp")
 set(tetrapore_dependency_eigen "tetrapore/solver/eigen\\.hpp")
 set(tetrapore_dependency_cholmod "tetrapore/solver/cholmod\\.hpp")
 set(tetrapore_dependency_cli "CLI/" CLI11 CLI11::CLI11 libcli11-dev)
 set(tetrapore_dependency_png "png\\.h" PNG PNG::PNG libpng-dev)
 set(tetrapore_dependency_eigen_oracle "Eigen/" Eigen3 Eigen3::Eigen libeigen3-dev)
+set(tetrapore_dependency_compiled_triangulation "support/compiled_triangulation\\.hpp" compiled_triangulation)
 
 function(tetrapore_collect_includes file out seen_out)
   set(names "${${out}}")
@@ -80,7 +81,10 @@ function(tetrapore_program target)
     if(NOT "${names}" MATCHES "(^|;)${pattern}")
       continue()
     endif()
-    if(rule)
+    list(LENGTH rule parts)
+    if(parts EQUAL 1)
+      target_link_libraries(${target} PRIVATE ${rule})
+    elseif(parts EQUAL 3)
       list(GET rule 0 package)
       list(GET rule 1 library)
       list(GET rule 2 debian)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "support/compiled_triangulation.hpp"
 #include "tetrapore/law/entry.hpp"
 #include "tetrapore/network.hpp"
 #include "tetrapore/packing/random_packing.hpp"
-#include "tetrapore/tessellation/cgal.hpp"
 #include "tetrapore/two_phase.hpp"
 
 #include <doctest/doctest.h>
@@ -25,7 +25,7 @@ network random_network(std::uint64_t seed) {
     r = 0.7 + 0.6 * static_cast<double>(random() >> 11U) * 0x1p-53;
   }
   const packing p = random_packing(radii, {.solid_fraction = 0.56, .seed = seed});
-  return cgal_triangulation{}(p.grains, domain_of(p)).net;
+  return compiled_triangulation{}(p.grains, domain_of(p)).net;
 }
 
 /// p_c at S = 0.5 when gas comes from one face towards the opposite one, with σ = 1.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "support/compiled_triangulation.hpp"
 #include "support/shared_data.hpp"
 
 #include "tetrapore/io/read_packing.hpp"
 #include "tetrapore/law/entry/mayer_stowe_princen.hpp"
-#include "tetrapore/tessellation/cgal.hpp"
 #include "tetrapore/two_phase.hpp"
 
 #include <algorithm>
@@ -26,10 +26,10 @@ std::vector<scene> scenes() {
   std::vector<scene> all;
   if (const auto path = shared_file("data/packings/open_200.txt")) {
     packing p = io::read_packing(*path).packing;
-    all.push_back({tessellate(p.grains, domain_of(p), cgal_triangulation{}).net});
+    all.push_back({tessellate(p.grains, domain_of(p), compiled_triangulation{}).net});
     p.periodic = {false, false, true};
-    all.push_back({tessellate(p.grains, domain_of(p), cgal_triangulation{}).net});
-    all.push_back({tessellate(p.grains, unbounded(), cgal_triangulation{}).net});
+    all.push_back({tessellate(p.grains, domain_of(p), compiled_triangulation{}).net});
+    all.push_back({tessellate(p.grains, unbounded(), compiled_triangulation{}).net});
   }
   return all;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "support/compiled_triangulation.hpp"
 #include "tetrapore/law/entry.hpp"
 #include "tetrapore/network.hpp"
 #include "tetrapore/packing/random_packing.hpp"
-#include "tetrapore/tessellation/cgal.hpp"
 #include "tetrapore/two_phase.hpp"
 
 #include <doctest/doctest.h>
@@ -35,7 +35,7 @@ TEST_CASE("facets around an edge whose gap gives way have one threshold, to the 
   const packing p = dense(1e-3);
   for (const bool periodic : {false, true}) {
     const domain d = periodic ? domain_of({p.grains, p.bounds, {true, true, true}}) : domain_of(p);
-    const network net = cgal_triangulation{}(p.grains, d).net;
+    const network net = compiled_triangulation{}(p.grains, d).net;
     std::size_t compared = 0;
     for (std::size_t i = 0; i < net.pore_count(); ++i) {
       const pore_id q(i);
@@ -78,7 +78,7 @@ TEST_CASE("the order of invasion and the trapped pores do not depend on the unit
   std::vector<std::vector<pore_id>> orders;
   for (const double unit : {1.0, 1e-3, 3.7, 2.54e-2}) {
     const packing p = dense(unit);
-    const network net = cgal_triangulation{}(p.grains, domain_of(p)).net;
+    const network net = compiled_triangulation{}(p.grains, domain_of(p)).net;
     facet_rule<mayer_stowe_princen, gap_model::lost_arc> rule(net, {.surface_tension = 0.072});
     drainage invasion(net, rule);
     invasion.run();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "support/compiled_triangulation.hpp"
 #include "support/csv_table.hpp"
 #include "support/shared_data.hpp"
 
@@ -6,7 +7,6 @@
 #include "tetrapore/io/read_packing.hpp"
 #include "tetrapore/law/entry.hpp"
 #include "tetrapore/packing/statistics.hpp"
-#include "tetrapore/tessellation/cgal.hpp"
 #include "tetrapore/two_phase.hpp"
 
 #include <doctest/doctest.h>
@@ -53,7 +53,9 @@ struct parts {
 class decomposition {
  public:
   explicit decomposition(const packing& p)
-      : net_(cgal_triangulation{}(p.grains, domain_of(p)).net), radius_(radii_of(p.grains).mean), lost_(net_, {1.0}) {
+      : net_(compiled_triangulation{}(p.grains, domain_of(p)).net),
+        radius_(radii_of(p.grains).mean),
+        lost_(net_, {1.0}) {
     for (std::size_t i = 0; i < net_.pore_count(); ++i) {
       const auto around = pore_body_at(net_, pore_id(i));
       std::array<bounding_side3<double>, 4> sides;
