@@ -154,9 +154,12 @@ class pairwise_aggregation {
       if (leader[c.i] != no_aggregate || leader[c.j] != no_aggregate) {
         continue;
       }
-      // Neither has a better free partner; a finished pair has to be twice as good.
+      // Neither has a better free partner; a finished pair has to be twice as good. No quality is above 2.
       bool joined = false;
       for (const std::uint32_t i : {c.i, c.j}) {
+        if (c.quality >= 1) {
+          break;
+        }
         if (const share best = best_join(i); best.weight > T(2) * static_cast<T>(c.quality)) {
           join(i, best.pair);
           joined = true;
@@ -195,16 +198,18 @@ class pairwise_aggregation {
     return leader;
   }
 
-  /// The pairs of sufficient quality, best first to 1 part in 256, in the order of the rows among equals.
+  /// The pairs of sufficient quality, best first to 1 part in 8; among equals in the order of the rows, which lie close in
+  /// memory.
   [[nodiscard]] std::vector<candidate> candidates(const level_rows<T>& rows) const {
+    constexpr std::uint32_t last_bucket = 0x7fffffffU >> 20U;
     const auto key = [](float quality) {
       // The bits of positive floats are ordered as they are.
-      return 0xffffU - (std::bit_cast<std::uint32_t>(quality) >> 15U);
+      return last_bucket - (std::bit_cast<std::uint32_t>(quality) >> 20U);
     };
     const auto least = static_cast<T>(how_.quality);
     std::vector<candidate> found;
     found.reserve(rows.columns.size() / 2);
-    std::vector<std::uint32_t> begin(0x10001U, 0);
+    std::vector<std::uint32_t> begin(last_bucket + std::size_t{2}, 0);
     for (std::uint32_t i = 0; i < rows.size(); ++i) {
       for (std::uint32_t k = rows.split[i]; k < rows.offsets[i + std::size_t{1}]; ++k) {
         const std::uint32_t j = rows.columns[k];
