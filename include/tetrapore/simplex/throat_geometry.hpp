@@ -62,45 +62,64 @@ struct facet_areas {
   [[nodiscard]] constexpr T fluid() const noexcept { return whole - (disc[0] + disc[1] + disc[2]); }
 };
 
-/// The areas where discs are whole sectors: three of them, apart from each other and from the opposite edges. Returns
-/// false where they are not.
+/// The areas where a disc is its sector less half a segment at each neighbour that it overlaps: three discs of which none
+/// reaches the opposite edge or what two others share. Returns false where it is not so.
 template <real T>
-[[nodiscard]] bool whole_sectors(const throat<T>& t, facet_areas<T>& out) noexcept {
+[[nodiscard]] bool sectors_in_facet(const throat<T>& t, facet_areas<T>& out) noexcept {
   using std::atan2;
   using std::sqrt;
   const std::array<vec3<T>, 3> edge{t.grains[2].centre - t.grains[1].centre, t.grains[0].centre - t.grains[2].centre,
-                                    t.grains[1].centre - t.grains[0].centre};
+                                    t.grains[1].centre - t.grains[0].centre};  // opposite to each grain
   const T twice2 = norm2(cross(edge[1], edge[2]));
-  for (std::size_t k = 0; k < 3; ++k) {
-    const T length2 = norm2(edge[k]);
-    const T r = t.grains[k].radius;
-    const T sum = t.grains[(k + 1) % 3].radius + t.grains[(k + 2) % 3].radius;
-    if (!(sum * sum <= length2) || !(r * r * length2 <= twice2)) {
-      return false;
-    }
-  }
   const T twice = sqrt(twice2);
   out.whole = twice * T(0.5);
+  std::array<T, 3> angle;
   for (std::size_t k = 0; k < 3; ++k) {
-    const T r = t.grains[k].radius;
-    out.disc[k] = r * r * atan2(twice, -dot(edge[(k + 1) % 3], edge[(k + 2) % 3])) * T(0.5);
+    const T r2 = t.grains[k].radius * t.grains[k].radius;
+    if (!(r2 * norm2(edge[k]) <= twice2)) {
+      return false;
+    }
+    angle[k] = atan2(twice, -dot(edge[(k + 1) % 3], edge[(k + 2) % 3]));
+    out.disc[k] = r2 * angle[k] * T(0.5);
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t i = (k + 1) % 3;
+    const std::size_t j = (k + 2) % 3;
+    const T length2 = norm2(edge[k]);
+    const T sum = t.grains[i].radius + t.grains[j].radius;
+    if (!(sum * sum > length2)) {
+      continue;
+    }
+    const T length = sqrt(length2);
+    for (const std::size_t v : {i, j}) {
+      const T r = t.grains[v].radius;
+      const T to = (length2 + (r - t.grains[i + j - v].radius) * sum) / (length + length);  // the radical line
+      const T half2 = (r - to) * (r + to);
+      if (!(to > T(0)) || !(half2 >= T(0))) {
+        return false;
+      }
+      const T half = sqrt(half2);
+      const T cap = atan2(half, to);
+      angle[v] = angle[v] - cap;
+      if (!(angle[v] >= T(0))) {
+        return false;
+      }
+      out.disc[v] = out.disc[v] - (r * r * cap - to * half) * T(0.5);
+    }
   }
   return true;
 }
 
+/// The same for any throat: discs clipped along their radical lines and by the facet.
 template <real T>
-[[nodiscard]] facet_areas<T> areas_in_facet(const throat<T>& t) noexcept {
-  facet_areas<T> out{T(0), {T(0), T(0), T(0)}};
-  if (t.grain_count == 3 && whole_sectors(t, out)) {
-    return out;
-  }
+[[nodiscard]] facet_areas<T> clipped_in_facet(const throat<T>& t) noexcept {
   const plane_polygon<T> whole = facet_in_plane(t);
   std::array<disc<T>, 3> discs{};
   for (std::size_t k = 0; k < t.grain_count; ++k) {
     // of a trapezoid the second centre is the last corner
     discs[k] = {whole.corners[t.grain_count == 2 && k == 1 ? 3 : k], t.grains[k].radius};
   }
-  out.whole = whole.area();
+  facet_areas<T> out{whole.area(), {T(0), T(0), T(0)}};
   for (std::size_t i = 0; i < t.grain_count; ++i) {
     plane_polygon<T> part = whole;
     for (std::size_t j = 0; j < t.grain_count; ++j) {
@@ -124,6 +143,12 @@ template <real T>
     out.disc[i] = disc_area(discs[i], part);
   }
   return out;
+}
+
+template <real T>
+[[nodiscard]] facet_areas<T> areas_in_facet(const throat<T>& t) noexcept {
+  facet_areas<T> out{};
+  return t.grain_count == 3 && sectors_in_facet(t, out) ? out : clipped_in_facet(t);
 }
 
 }  // namespace detail

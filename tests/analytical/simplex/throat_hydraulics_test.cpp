@@ -112,6 +112,37 @@ TEST_CASE("fluid and discs fill the facet, also where grains overlap or a disc r
   }
 }
 
+TEST_CASE("sectors less half segments agree with clipped discs wherever they apply") {
+  random_throats next(3);
+  std::size_t sectors = 0;
+  std::size_t overlapping = 0;
+  std::size_t clipped = 0;
+  for (int i = 0; i < 50000; ++i) {
+    throat<double> t = next();
+    const double grown = i % 3 == 0 ? 1.0 : next.uniform(0.9, 1.5);
+    for (std::size_t k = 0; k < t.grain_count; ++k) {
+      t.grains[k].radius *= grown * next.uniform(1.0, 1.1);
+    }
+    detail::facet_areas<double> fast{};
+    if (t.grain_count < 3 || !detail::sectors_in_facet(t, fast)) {
+      ++clipped;
+      continue;
+    }
+    ++sectors;
+    const auto slow = detail::clipped_in_facet(t);
+    CHECK(std::abs(fast.whole - slow.whole) < 32 * epsilon<double>);
+    for (std::size_t k = 0; k < 3; ++k) {
+      CHECK(std::abs(fast.disc[k] - slow.disc[k]) < 32 * epsilon<double>);
+      const auto& a = t.grains[k];
+      const auto& b = t.grains[(k + 1) % 3];
+      overlapping += norm(a.centre - b.centre) < a.radius + b.radius ? 1U : 0U;
+    }
+  }
+  CHECK(sectors > 10000);
+  CHECK(overlapping > 10000);
+  CHECK(clipped > 5000);
+}
+
 TEST_CASE("a node that comes to the other takes length, volume and wetted area with it, in proportion") {
   const throat<double> near = of_grains({1, 1.1, 0.9}, 2.2, 2.3, 2.1, 0.2, 0.2 + 1e-9);
   const throat<double> far = of_grains({1, 1.1, 0.9}, 2.2, 2.3, 2.1, 0.2, 0.2 + 1e-6);
