@@ -185,8 +185,9 @@ class coupled_flow {
                Sharing sharing = {})
       : net_(std::move(net)),
         options_(options),
+        flow_options_(std::move(flow)),
         sharing_(std::move(sharing)),
-        flow_(net_, std::move(law), std::move(solver), std::move(flow)) {
+        flow_(net_, std::move(law), std::move(solver), flow_options_) {
     if (options_.scheme == pressure_scheme::explicit_step && !flow_.system().compressible()) {
       throw parameter_error("pressure scheme", "an explicit step of an incompressible fluid", "an implicit step");
     }
@@ -275,9 +276,11 @@ class coupled_flow {
     take(grains, bounds);
     const std::vector<sphere<double>> here(net_.grains().begin(), net_.grains().end());
     transfer way = tetrapore::rebuild(net_, engine, here);
-    carry(way, flow_.pressure());
+    pressure_field pressure = flow_.pressure();
+    carry(way, pressure);
     carry(way, unbalanced_);
-    flow_.update();
+    flow_ = saturated_flow<Law, Solver>(net_, flow_.law(), std::move(flow_.solver()), flow_options_);
+    flow_.pressure() = std::move(pressure);
     gather();
     remember();
     steps_since_refresh_ = 0;
@@ -366,7 +369,11 @@ class coupled_flow {
   [[nodiscard]] const saturated_flow<Law, Solver>& flow() const noexcept { return flow_; }
   [[nodiscard]] const pressure_field& pressure() const noexcept { return flow_.pressure(); }
   [[nodiscard]] pressure_field& pressure() noexcept { return flow_.pressure(); }
-  void set_conditions(flow_conditions conditions) { flow_.set_conditions(std::move(conditions)); }
+  void set_conditions(flow_conditions conditions) {
+    flow_options_.conditions = std::move(conditions);
+    flow_.set_conditions(flow_options_.conditions);
+    gather();
+  }
   /// Force of the fluid on each wall in the last step, pressure and shear [N].
   [[nodiscard]] const std::array<vec3<double>, 6>& wall_forces() const noexcept { return wall_forces_; }
   /// Of all steps.
@@ -646,6 +653,7 @@ class coupled_flow {
 
   network net_;
   coupling_options options_;
+  flow_options flow_options_;
   Sharing sharing_;
   saturated_flow<Law, Solver> flow_;
   fluid_ledger ledger_;
