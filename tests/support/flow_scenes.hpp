@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "support/compiled_triangulation.hpp"
+#include "support/compiled_triangulation.hpp"
 #include "tetrapore/law/conductance/hydraulic_radius.hpp"
 #include "tetrapore/network/solid.hpp"
 #include "tetrapore/one_phase.hpp"
 #include "tetrapore/packing/lattice.hpp"
 #include "tetrapore/packing/random_packing.hpp"
 #include "tetrapore/solver/ldlt.hpp"
-#include "tetrapore/tessellation/cgal.hpp"
 
 #include <bit>
 #include <cstdint>
@@ -37,7 +38,8 @@ inline packing dense(std::size_t n, std::array<bool, 3> periodic, std::uint64_t 
     r = 0.7 + 0.6 * unit_draw(random);
   }
   const double fraction = periodic[0] ? 0.58 : 0.5;  // walls order the grains beside them
-  return random_packing(radii, {.solid_fraction = fraction, .periodic = periodic, .aspect = {1, 1.25, 0.75}, .seed = seed});
+  return random_packing(radii,
+                        {.solid_fraction = fraction, .periodic = periodic, .aspect = {1, 1.25, 0.75}, .seed = seed});
 }
 
 inline packing scaled(packing p, double unit) {
@@ -69,7 +71,7 @@ inline packing inflated(packing p, double factor) {
   return p;
 }
 
-inline network triangulated(const packing& p) { return cgal_triangulation{}(p.grains, domain_of(p)).net; }
+inline network triangulated(const packing& p) { return compiled_triangulation{}(p.grains, domain_of(p)).net; }
 
 inline std::vector<scene> walled_scenes() {
   const packing random = dense(120, {}, 3);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "support/compiled_triangulation.hpp"
 #include "support/small_flow.hpp"
 #include "tetrapore/law/conductance/darcy.hpp"
 #include "tetrapore/law/conductance/hydraulic_radius.hpp"
 #include "tetrapore/packing/random_packing.hpp"
-#include "tetrapore/tessellation/cgal.hpp"
 
 #include <doctest/doctest.h>
 
@@ -60,7 +60,7 @@ std::vector<double> radii(std::size_t n) {
 
 TEST_CASE("the domains of all throats tile a periodic packing: volumes to the box, solid angles to 4π at each grain") {
   const packing p = random_packing(radii(150), {.solid_fraction = 0.55, .periodic = {true, true, true}, .seed = 2});
-  const network net = cgal_triangulation{}(p.grains, domain_of(p)).net;
+  const network net = compiled_triangulation{}(p.grains, domain_of(p)).net;
   const sums s = of(net);
   CHECK(s.volume == doctest::Approx(p.bounds->volume()).epsilon(1e-12));
   for (const double angle : s.angle) {
@@ -70,7 +70,7 @@ TEST_CASE("the domains of all throats tile a periodic packing: volumes to the bo
 
 TEST_CASE("with walls: volumes to the box, solid angles to 4π, wetted areas of the walls to their faces") {
   const packing p = random_packing(radii(150), {.solid_fraction = 0.5, .seed = 3});
-  const network net = cgal_triangulation{}(p.grains, domain_of(p)).net;
+  const network net = compiled_triangulation{}(p.grains, domain_of(p)).net;
   const sums s = of(net);
   const vec3<double> size = p.bounds->size();
   CHECK(s.volume == doctest::Approx(p.bounds->volume()).epsilon(1e-12));
@@ -85,7 +85,7 @@ TEST_CASE("with walls: volumes to the box, solid angles to 4π, wetted areas of 
 
 TEST_CASE("a network of Darcy's throats has the permeability that they were given, isotropic, whatever its grains") {
   const packing p = random_packing(radii(60), {.solid_fraction = 0.5, .periodic = {true, true, true}, .seed = 5});
-  const network net = cgal_triangulation{}(p.grains, domain_of(p)).net;
+  const network net = compiled_triangulation{}(p.grains, domain_of(p)).net;
   const small_flow flow(net);
   const auto k = flow.conductances(darcy{.permeability = 3.0, .viscosity = 2.0});
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -98,7 +98,7 @@ TEST_CASE("a network of Darcy's throats has the permeability that they were give
 
 TEST_CASE("the forces on all grains sum to the mean gradient times the box, whatever the conductances") {
   const packing p = random_packing(radii(60), {.solid_fraction = 0.5, .periodic = {true, true, true}, .seed = 6});
-  const network net = cgal_triangulation{}(p.grains, domain_of(p)).net;
+  const network net = compiled_triangulation{}(p.grains, domain_of(p)).net;
   const small_flow flow(net);
   for (const auto& k : {flow.conductances(hydraulic_radius{.viscosity = 1.0}),
                         flow.conductances(darcy{.permeability = 1.0, .viscosity = 1.0})}) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <doctest/doctest.h>
 
+#include "support/compiled_triangulation.hpp"
 #include "support/flow_scenes.hpp"
 
 #include <algorithm>
@@ -252,7 +253,7 @@ TEST_CASE("fluxes stay and forces turn when an open packing is rotated") {
     turned.push_back({rotate(g.centre), g.radius});
   }
   const auto run = [&](const std::vector<sphere<double>>& grains) {
-    const network net = cgal_triangulation{}(grains, unbounded()).net;
+    const network net = compiled_triangulation{}(grains, unbounded()).net;
     flow_conditions c;  // two grains whose pores are reservoirs
     for (std::size_t i = 0; i < net.pore_count(); ++i) {
       const auto has = [&](std::size_t g) {
@@ -268,7 +269,7 @@ TEST_CASE("fluxes stay and forces turn when an open packing is rotated") {
     for (std::size_t i = 0; i < net.throat_count(); ++i) {
       q += flow.flux(throat_id(i)) * flow.pressure_drop(throat_id(i));
     }
-    return std::pair{q, forces_on_grains(flow, {}, true)};
+    return std::pair{q, forces_on_grains(flow, share_by_wetted_area{}, true)};
   };
   const auto [q, forces] = run(p.grains);
   const auto [q_turned, forces_turned] = run(turned);

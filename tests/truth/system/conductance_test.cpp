@@ -2,11 +2,11 @@
 //
 // Permeability and forces by the conductance laws against Stokes flow: Zick & Homsy 1982 where they give a number, else
 // lattice-Boltzmann runs extrapolated in their resolution.
+#include "support/compiled_triangulation.hpp"
 #include "support/csv_table.hpp"
 #include "support/shared_data.hpp"
 #include "support/small_flow.hpp"
 #include "tetrapore/law/conductance.hpp"
-#include "tetrapore/tessellation/cgal.hpp"
 
 #include <algorithm>
 #include <array>
@@ -20,7 +20,7 @@ using namespace tetrapore;
 
 namespace {
 
-small_flow flow_of(const packing& p) { return small_flow(cgal_triangulation{}(p.grains, domain_of(p)).net); }
+small_flow flow_of(const packing& p) { return small_flow(compiled_triangulation{}(p.grains, domain_of(p)).net); }
 
 lattice_kind kind_of(const std::string& name) {
   return name == "sc"    ? lattice_kind::simple_cubic
