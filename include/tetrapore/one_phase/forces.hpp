@@ -86,17 +86,22 @@ struct fluid_forces {
 
 namespace detail {
 
-/// Directions at vertex k of a facet, a grain, towards the two others: the arms of its sector.
-[[nodiscard]] inline std::array<vec3<double>, 2> arms_of_sector(const throat<double>& t, std::size_t k) noexcept {
-  const auto towards = [&](std::size_t other) {
-    if (other >= t.grain_count) {
-      return -t.walls[other - t.grain_count].normal;
+/// Unit vectors along the edges of a facet, edge k from vertex k to the next; a wall is a direction.
+[[nodiscard]] inline std::array<vec3<double>, 3> edges_of_facet(const throat<double>& t) noexcept {
+  std::array<vec3<double>, 3> out{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t next = (k + 1) % 3;
+    if (k < t.grain_count && next < t.grain_count) {
+      const vec3<double> d = t.grains[next].centre - t.grains[k].centre;
+      const double length = norm(d);
+      out[k] = length > 0 ? d / length : vec3<double>{};
+    } else if (k < t.grain_count) {
+      out[k] = -t.walls[next - t.grain_count].normal;
+    } else if (next < t.grain_count) {
+      out[k] = t.walls[k - t.grain_count].normal;
     }
-    const vec3<double> d = t.grains[other].centre - t.grains[k].centre;
-    const double length = norm(d);
-    return length > 0 ? d / length : vec3<double>{};
-  };
-  return {towards((k + 1) % 3), towards((k + 2) % 3)};
+  }
+  return out;
 }
 
 /// Solid angle of a cell at its grain k [sr]; a wall is a direction.
@@ -160,6 +165,7 @@ template <load_sharing Sharing = share_by_wetted_area>
     const facet_load load = sharing(seen);
     const vec3<double> push = seen.area_vector * (drop / area);
     const auto slots = facet_slots(net, a, net.slot(t, 0));
+    const auto edges = detail::edges_of_facet(seen);
     for (std::size_t k = 0; k < 3; ++k) {
       const vertex v = net.vertices(a)[slots[k]];
       if (v.is_wall()) {
@@ -169,7 +175,8 @@ template <load_sharing Sharing = share_by_wetted_area>
       const std::size_t g = v.grain().index();
       out.pressure[g] += push * load.pressure[k];
       out.viscous[g] += push * load.viscous[k];
-      const auto [e1, e2] = detail::arms_of_sector(seen, k);
+      const vec3<double>& e1 = edges[k];  // the arms of its sector
+      const vec3<double> e2 = -edges[(k + 2) % 3];
       const vec3<double> middle = e1 + e2;
       const double size = norm(middle);
       if (!(size > 0)) {
@@ -209,12 +216,29 @@ template <load_sharing Sharing = share_by_wetted_area>
   return out;
 }
 
-/// Forces of the last solution.
-template <class Law, class Solver, load_sharing Sharing = share_by_wetted_area>
-[[nodiscard]] fluid_forces forces_on_grains(const saturated_flow<Law, Solver>& flow, const Sharing& sharing = {},
+/// The sharing that goes with a law: its walls take shear unless it says that the fluid slips along them.
+template <conductance_law Law>
+[[nodiscard]] share_by_wetted_area sharing_of(const Law& law) noexcept {
+  if constexpr (requires {
+                  { law.wall } -> std::convertible_to<wall_condition>;
+                }) {
+    return {law.wall};
+  } else {
+    return {};
+  }
+}
+
+/// Forces of the last solution, shared as the caller asks.
+template <class Law, class Solver, load_sharing Sharing>
+[[nodiscard]] fluid_forces forces_on_grains(const saturated_flow<Law, Solver>& flow, const Sharing& sharing,
                                             bool with_stress = false) {
   return forces_of_pressure(flow.net(), flow.system().nodes(), flow.driving_pressure(),
                             flow.system().conditions().mean_gradient, sharing, with_stress);
+}
+/// Forces of the last solution, shared as the law treats the walls.
+template <class Law, class Solver>
+[[nodiscard]] fluid_forces forces_on_grains(const saturated_flow<Law, Solver>& flow) {
+  return forces_on_grains(flow, sharing_of(flow.law()));
 }
 
 /// Force of the fluid at rest on each grain [N]: its weight less, upwards (Archimedes). A grain counts whole.
