@@ -2,9 +2,9 @@
 //
 // The pressure system of dense grains (58,600 pores, `large` 238,000) by every solver that we know of, beside our own.
 // Conductances as they are, or changed as the label says. `error` is the largest against long double, relative to the
-// largest pressure; `failed` is 1 where the solver says that it has not solved. Rows `cold` begin from the graph, `again`
-// from other conductances on the same graph, `resolve` from the factor. `raw` rows call Eigen as its manual does.
-// OpenBLAS takes as many threads as there are cores unless OPENBLAS_NUM_THREADS says otherwise.
+// largest pressure; `failed` is 1 where the solver says that it has not solved. Rows `cold` begin from the graph,
+// `again` from other conductances on the same graph, `resolve` from the factor. `raw` rows call Eigen as its manual
+// does. OpenBLAS takes as many threads as there are cores unless OPENBLAS_NUM_THREADS says otherwise.
 
 #include "solver/system.hpp"
 #include "tetrapore/solver/cholmod.hpp"
@@ -114,7 +114,8 @@ void cholmod_resolve_eight(benchmark::State& state) {
   tell(state, c, std::span<const double>(x).subspan(n * (count - 1)), solved, 0);
 }
 
-/// One conductance changes by half and back: rank-1 update and downdate, each with a solution. The time is that of both.
+/// One conductance changes by half and back: rank-1 update and downdate, each with a solution. The time is that of
+/// both.
 void cholmod_update_and_resolve(benchmark::State& state) {
   const bench::pressure_case& c = case_of(state);
   std::vector<double> x(c.sources.size());

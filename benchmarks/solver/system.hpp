@@ -143,8 +143,8 @@ struct pressure_case {
   return {best.begin(), best.end()};
 }
 
-/// Flow from y_min (pressure 1) to y_max (0) through n dense grains (a multiple of 1,000; six pores per grain), with the
-/// conductances of the hydraulic radius, changed as said; nodes that are tied to nothing are held at 0 by their own
+/// Flow from y_min (pressure 1) to y_max (0) through n dense grains (a multiple of 1,000; six pores per grain), with
+/// the conductances of the hydraulic radius, changed as said; nodes that are tied to nothing are held at 0 by their own
 /// conductance. Made once.
 [[nodiscard]] inline const pressure_case& dense_case(std::size_t grains, contrast how) {
   static std::map<std::pair<std::size_t, contrast>, std::unique_ptr<pressure_case>> made;

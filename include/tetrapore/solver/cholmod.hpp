@@ -79,8 +79,8 @@ struct cholmod_settings {
   /// matrix has lost (error 2e-8 to 3e-15 at a contrast of 5e19). 0 where only speed counts.
   std::size_t refinements = 1;
   /// Up to so many conductances and excesses that differ from those of the factor at hand are taken into it by rank-1
-  /// updates and downdates; with more, or with 0, factorize starts anew. An updated factor differs from a new one in its
-  /// last bits, and is kept by columns, without the speed of blocks.
+  /// updates and downdates; with more, or with 0, factorize starts anew. An updated factor differs from a new one in
+  /// its last bits, and is kept by columns, without the speed of blocks.
   std::size_t update_limit = 0;
   /// After so many updates the factor is made anew, and also where the diagonal of a node falls below 1e-7 of the
   /// largest that the factor has held: rounding stays behind.

@@ -200,8 +200,8 @@ static_assert(network_solver<eigen_ldlt_solver>);
 /// cg.preconditioner().assign(graph, w, s);  // from conductances; without this line, from the matrix
 /// cg.compute(laplacian(graph, w, s));
 /// \endcode
-/// \tparam Real  number in which the hierarchy is kept; float is a quarter faster, and fails where 40 % of the conductances
-///         are 1e-18 of the others
+/// \tparam Real  number in which the hierarchy is kept; float is a quarter faster, and fails where 40 % of the
+///         conductances are 1e-18 of the others
 template <std::floating_point Real = double>
 class vcycle_preconditioner {
  public:
@@ -234,9 +234,9 @@ class vcycle_preconditioner {
     return compute(matrix);
   }
 
-  /// The hierarchy of a symmetric matrix with non-positive entries off a dominant diagonal, unless one was assigned. Its
-  /// excess is what the diagonal exceeds the sum of its row by, and is taken as zero where rounding hides it; info() is
-  /// NumericalIssue where an entry off the diagonal is positive or a diagonal too small.
+  /// The hierarchy of a symmetric matrix with non-positive entries off a dominant diagonal, unless one was assigned.
+  /// Its excess is what the diagonal exceeds the sum of its row by, and is taken as zero where rounding hides it;
+  /// info() is NumericalIssue where an entry off the diagonal is positive or a diagonal too small.
   template <class Matrix>
   vcycle_preconditioner& compute(const Matrix& matrix) {
     if (assigned_) {
@@ -301,8 +301,8 @@ class vcycle_preconditioner {
   Eigen::ComputationInfo info_ = Eigen::InvalidInput;
 };
 
-/// Eigen's conjugate gradients on w and s (only the preconditioner may see an assembled matrix), restarted from the true
-/// residual until the scaled residual ‖D^-½ r‖ / ‖D^-½ b‖ is below the tolerance or no longer halves.
+/// Eigen's conjugate gradients on w and s (only the preconditioner may see an assembled matrix), restarted from the
+/// true residual until the scaled residual ‖D^-½ r‖ / ‖D^-½ b‖ is below the tolerance or no longer halves.
 /// \tparam Preconditioner  any of Eigen's: DiagonalPreconditioner<double>, IncompleteCholesky<double>, or our V-cycle.
 ///         With the first two a large system needs thousands of iterations: raise options.max_iterations
 template <class Preconditioner = vcycle_preconditioner<>>
