@@ -60,8 +60,8 @@ struct flow_conditions {
 /// What the pressure equation asks of the fluid beyond its viscosity, which the conductance law holds.
 struct pore_fluid {
   double bulk_modulus = std::numeric_limits<double>::infinity();  ///< [Pa]; infinite: incompressible
-  double density = 0;                                            ///< [kg/m³]
-  vec3<double> gravity{};                                        ///< [m/s²]
+  double density = 0;                                             ///< [kg/m³]
+  vec3<double> gravity{};                                         ///< [m/s²]
 
   /// Pressure gradient of the fluid at rest [Pa/m].
   [[nodiscard]] constexpr vec3<double> hydrostatic_gradient() const noexcept { return gravity * density; }

@@ -109,9 +109,9 @@ template <conductance_law Law, executor E = serial>
   });
   if (const throat_id t = out.counts.first_refused(); refused == refused_throats::error && t.valid()) {
     const auto why = law.conductance(nodes.throat_between(net, t)).reason;
-    throw network_error("throat " + std::to_string(t.index()) + " (the first of " +
-                            std::to_string(out.counts.refused()) + ")",
-                        describe(why), "a throat that the law covers, or refused_throats::closed");
+    throw network_error(
+        "throat " + std::to_string(t.index()) + " (the first of " + std::to_string(out.counts.refused()) + ")",
+        describe(why), "a throat that the law covers, or refused_throats::closed");
   }
   return out;
 }

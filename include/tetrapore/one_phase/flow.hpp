@@ -194,8 +194,8 @@ class saturated_flow {
     }
     const flow_system::right_hand_side right = system_.sources(*net_, k, inflow);
     how.warm = how.warm && near_;
-    std::vector<double> x = how.warm ? system_.start_from(*net_, pressure_.values())
-                                     : std::vector<double>(system_.unknowns(), 0.0);
+    std::vector<double> x =
+        how.warm ? system_.start_from(*net_, pressure_.values()) : std::vector<double>(system_.unknowns(), 0.0);
     how.balance_floor += right.rounding + rates.rounding;
     const solve_report report = solver_.solve(right.b, x, how);
     expect_answer(report);

@@ -242,9 +242,8 @@ class flow_system {
   /// Rise of the mean pressure from the node of pore 0 to that of pore 1.
   [[nodiscard]] double tilt(const network& net, throat_id t) const noexcept {
     const auto& [a, b] = net.pores(t);
-    const vec3<double> step =
-        (net.power_centre(nodes_.pore(nodes_[b])) - net.power_centre(nodes_.pore(nodes_[a]))) +
-        net.region().shift(nodes_.step(net, t));
+    const vec3<double> step = (net.power_centre(nodes_.pore(nodes_[b])) - net.power_centre(nodes_.pore(nodes_[a]))) +
+                              net.region().shift(nodes_.step(net, t));
     return dot(conditions_.mean_gradient, step);
   }
 

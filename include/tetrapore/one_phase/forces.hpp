@@ -35,7 +35,9 @@ concept load_sharing = requires(const S s, const throat<double> t) {
 /// wet in the throat domain.
 /// \par Domain  any throat. Where signed wetted areas have no common sign, as in a mesh that is no longer regular, their
 ///              magnitudes count; where they vanish, the discs
-/// \par Source  Chareyre et al. 2012, Transp. Porous Media 92, 473, Eqs. (33)-(36)
+/// \par Accuracy  the parts sum to the area to 1e-14 of the largest square of a radius or edge; from the conductances
+///                of another code, its forces on the grains to 5e-11 (tests/truth/system/peer_flow_test.cpp)
+/// \par Source  Chareyre et al. 2012, Transp. Porous Media 92, 473; Chareyre et al. 2017, §2.2
 struct share_by_wetted_area {
   wall_condition wall = wall_condition::no_slip;
 
@@ -64,11 +66,11 @@ static_assert(load_sharing<share_by_wetted_area>);
 
 /// Forces and torques of the fluid.
 struct fluid_forces {
-  std::vector<vec3<double>> pressure;      ///< per grain [N]
-  std::vector<vec3<double>> viscous;       ///< per grain [N]
-  std::vector<vec3<double>> torques;       ///< per grain, about its centre [N m]
-  std::array<vec3<double>, 6> walls{};     ///< shear on each wall [N]; the pressure on it: pressure_on_walls
-  std::array<vec3<double>, 3> stress{};    ///< rows of the mean stress of the fluid's forces in the grains [Pa]
+  std::vector<vec3<double>> pressure;    ///< per grain [N]
+  std::vector<vec3<double>> viscous;     ///< per grain [N]
+  std::vector<vec3<double>> torques;     ///< per grain, about its centre [N m]
+  std::array<vec3<double>, 6> walls{};   ///< shear on each wall [N]; the pressure on it: pressure_on_walls
+  std::array<vec3<double>, 3> stress{};  ///< rows of the mean stress of the fluid's forces in the grains [Pa]
 
   [[nodiscard]] vec3<double> on(grain_id g) const noexcept { return pressure[g.index()] + viscous[g.index()]; }
   /// Sum over grains and walls [N].

@@ -40,9 +40,7 @@ class flow_nodes {
 
   /// The network must have been measured.
   /// \throw network_error  naming the pore, where a node would reach round a periodic box
-  explicit flow_nodes(const network& net, const node_rule& rule = {}) {
-    number(net, links_of(net, rule));
-  }
+  explicit flow_nodes(const network& net, const node_rule& rule = {}) { number(net, links_of(net, rule)); }
 
   [[nodiscard]] std::size_t size() const noexcept { return largest_.size(); }
   [[nodiscard]] std::size_t pore_count() const noexcept { return node_.size(); }
@@ -201,8 +199,7 @@ class flow_nodes {
       pore_id largest(i);
       for (std::size_t m = 0; m < members.size() && !links.empty(); ++m) {
         const pore_id from = members[m];
-        auto l = std::lower_bound(links.begin(), links.end(), from,
-                                  [](const link& x, pore_id p) { return x.a < p; });
+        auto l = std::lower_bound(links.begin(), links.end(), from, [](const link& x, pore_id p) { return x.a < p; });
         for (; l != links.end() && l->a == from; ++l) {
           const image at = offset(from) + l->at;
           if (node_[l->b.index()] == unset) {

@@ -77,9 +77,9 @@ template <real T>
 
 /// How grains, walls and the periodic box move.
 struct motion {
-  std::span<const vec3<double>> velocities;     ///< of the grains [m/s]
-  std::array<vec3<double>, 6> walls{};          ///< velocity of each wall; only its normal part counts [m/s]
-  std::array<vec3<double>, 3> period_rates{};   ///< rate of change of each periodic vector of the box [m/s]
+  std::span<const vec3<double>> velocities;    ///< of the grains [m/s]
+  std::array<vec3<double>, 6> walls{};         ///< velocity of each wall; only its normal part counts [m/s]
+  std::array<vec3<double>, 3> period_rates{};  ///< rate of change of each periodic vector of the box [m/s]
 
   /// Velocity of the image of a grain.
   [[nodiscard]] vec3<double> of(grain_id g, image at) const noexcept {

@@ -44,8 +44,7 @@ TEST_CASE("touching lattices have the permeability of Stokes flow within 3, 2.5 
   for (const lattice_row& row : rows) {
     const packing p = lattice(row.kind, {2, 2, 2}, 0.5, {true, true, true});
     const permeability_tensor k = tensor_of(p);
-    const double stokes =
-        p.bounds->volume() / (6 * pi<double> * 0.5 * static_cast<double>(p.grains.size()) * row.drag);
+    const double stokes = p.bounds->volume() / (6 * pi<double> * 0.5 * static_cast<double>(p.grains.size()) * row.drag);
     CHECK(std::abs(k(0, 0) / stokes - 1) < row.within);
     for (std::size_t i = 0; i < 3; ++i) {
       for (std::size_t j = 0; j < 3; ++j) {

@@ -120,8 +120,9 @@ struct peer_sharing {
       const auto& [c, r] = t.grains[k];
       const vec3<double> a = t.grains[(k + 1) % 3].centre - c;
       const vec3<double> b = t.grains[(k + 2) % 3].centre - c;
-      wetted[k] = r * r * (std::abs(solid_angle(a, t.nodes[0] - c, t.nodes[1] - c)) +
-                           std::abs(solid_angle(b, t.nodes[0] - c, t.nodes[1] - c)));
+      wetted[k] = r * r *
+                  (std::abs(solid_angle(a, t.nodes[0] - c, t.nodes[1] - c)) +
+                   std::abs(solid_angle(b, t.nodes[0] - c, t.nodes[1] - c)));
       load.pressure[k] = r * r * std::atan2(norm(cross(a, b)), dot(a, b)) / 2;
       fluid -= load.pressure[k];
     }
@@ -174,8 +175,7 @@ TEST_CASE("the peer's conductances give the peer's pressure, permeability and gr
       worst_pressure = std::max(worst_pressure, std::abs(flow.pressure()[pore_id(i)] - peer->pressure[i]));
     }
     CHECK(worst_pressure < 1e-8);
-    const double k =
-        box_permeability(flow, face::y_min, face::y_max, 1.0) / (peer->mean_radius * peer->mean_radius);
+    const double k = box_permeability(flow, face::y_min, face::y_max, 1.0) / (peer->mean_radius * peer->mean_radius);
     CHECK(k == doctest::Approx(c.permeability).epsilon(1e-5));  // the digits of its README
 
     const fluid_forces f = forces_on_grains(flow, peer_sharing{});
@@ -191,8 +191,9 @@ TEST_CASE("the peer's conductances give the peer's pressure, permeability and gr
     }
     CHECK(compared > 10);
     CHECK(worst_inner < 1e-8);
-    MESSAGE(std::string(c.name) << ": pressures within " << worst_pressure << ", forces on " << compared << " grains within "
-                   << worst_inner << ", permeability off by " << k / c.permeability - 1);
+    MESSAGE(std::string(c.name) << ": pressures within " << worst_pressure << ", forces on " << compared
+                                << " grains within " << worst_inner << ", permeability off by "
+                                << k / c.permeability - 1);
   }
 }
 
@@ -245,8 +246,8 @@ TEST_CASE("our conductances give the peer's permeability within 3 %; which facet
               " change it by " + std::to_string(100 * (after / before - 1)) + " %; ";
       before = after;
     }
-    MESSAGE(std::string(c.name) << ": k/r² " << after << ", peer " << c.permeability << ", " << 100 * (after / c.permeability - 1)
-                   << " %: " << text);
+    MESSAGE(std::string(c.name) << ": k/r² " << after << ", peer " << c.permeability << ", "
+                                << 100 * (after / c.permeability - 1) << " %: " << text);
     CHECK(std::abs(after / c.permeability - 1) < 0.03);
   }
 }
