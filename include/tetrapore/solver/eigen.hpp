@@ -200,8 +200,7 @@ static_assert(network_solver<eigen_ldlt_solver>);
 /// cg.preconditioner().assign(graph, w, s);  // from conductances; without this line, from the matrix
 /// cg.compute(laplacian(graph, w, s));
 /// \endcode
-/// \tparam Real  number in which the hierarchy is kept; float is a quarter faster, and fails where 40 % of the
-///         conductances are 1e-18 of the others
+/// \tparam Real  what the conductances of the hierarchy are held in
 template <std::floating_point Real = double>
 class vcycle_preconditioner {
  public:
