@@ -112,16 +112,17 @@ class multigrid_solver {
     return v > 0 ? std::ldexp(1.0, std::ilogb(v)) : 1.0;
   }
 
-  /// Runs of conjugate gradients, each from the residual of x evaluated anew, until that and its V-cycle are small.
-  /// After the first run the residual is what rounding leaves of it in stiff pairs, and only the estimate decides.
+  /// Runs of conjugate gradients, each from the residual of x evaluated anew, until that and its V-cycle are small. After
+  /// the first run the residual is what rounding leaves of it in stiff pairs, and only the estimate decides.
   void iterate(const solve_options& options, double b_norm, solve_report& report) {
     const double target = options.tolerance * b_norm;
+    const double error_target = 10 * options.tolerance;
     double norm = evaluate_residual();
     double rz = cycle();
     double error = estimate();
     report.error_estimate = error;
     std::size_t fruitless = 0;
-    for (bool first = true; !(error <= 10 * options.tolerance && (norm <= target || !first)); first = false) {
+    for (bool first = true; !(error <= error_target && (norm <= target || !first)); first = false) {
       if (report.iterations >= options.max_iterations || fruitless > 2) {
         report.stop = fruitless > 2 ? solve_stop::stagnated : solve_stop::max_iterations;
         if (report.error_estimate < error) {
@@ -129,14 +130,18 @@ class multigrid_solver {
         }
         return;
       }
-      descend(norm, rz, first ? target : 1e-6 * norm, options.max_iterations, report.iterations);
+      // Later runs aim lower, for what they see of the error is what this residual shows.
+      error = descend(norm, rz, first ? target : std::numeric_limits<double>::infinity(),
+                      first ? error_target : 0.1 * error_target, options.max_iterations, report.iterations);
       norm = evaluate_residual();
-      rz = cycle();
-      error = estimate();
+      if (!(error <= error_target && norm <= 2 * target)) {
+        rz = cycle();
+        error = estimate();
+      }
       fruitless = error < 0.5 * report.error_estimate ? 0 : fruitless + 1;
       if (!(error >= report.error_estimate)) {
         report.error_estimate = error;
-        if (!(error <= 10 * options.tolerance)) {
+        if (!(error <= error_target)) {
           best_ = x_;
         }
       }
@@ -145,35 +150,36 @@ class multigrid_solver {
     report.stop = solve_stop::backward_error;
   }
 
-  /// Conjugate gradients from r and its V-cycle until the residual of the recurrence reaches the target, or has ceased
-  /// to fall.
-  void descend(double norm, double rz, double target, std::size_t limit, std::size_t& iterations) {
+  /// Conjugate gradients from r and its V-cycle until the residual of the recurrence and its V-cycle reach their targets,
+  /// or the residual has ceased to fall. The estimated error then.
+  double descend(double norm, double rz, double target, double error_target, std::size_t limit,
+                 std::size_t& iterations) {
     const auto z = hierarchy_.output();
     double lowest = norm;
     std::size_t since = 0;
     double beta = 0;
-    while (norm > target) {
-      if (iterations >= limit || since > patience || !(rz > 0)) {
-        return;
-      }
-      const double back = back_;
+    while (iterations < limit && since <= patience && rz > 0) {
       for (std::size_t i = 0; i < p_.size(); ++i) {
-        p_[i] = back * z[i] + beta * p_[i];
+        p_[i] = back_ * z[i] + beta * p_[i];
       }
       const double energy = multiply();
       if (!(energy > 0)) {
-        return;
+        break;
       }
       norm = advance(rz / energy);
       ++iterations;
       since = norm < 0.9 * lowest ? 0 : since + 1;
       lowest = norm < lowest ? norm : lowest;
-      if (norm > target) {
-        const double next = cycle();
-        beta = next / rz;
-        rz = next;
+      const double next = cycle();
+      if (norm <= target) {
+        if (const double error = estimate(); error <= error_target) {
+          return error;
+        }
       }
+      beta = next / rz;
+      rz = next;
     }
+    return std::numeric_limits<double>::infinity();
   }
 
   /// z = M⁻¹ r; rᵀ z.
