@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "tetrapore/geometry/area.hpp"
+#include "tetrapore/geometry/primitives.hpp"
+#include "tetrapore/geometry/status.hpp"
 
 #include <array>
 #include <cstddef>
