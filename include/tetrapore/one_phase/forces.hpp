@@ -33,8 +33,8 @@ concept load_sharing = requires(const S s, const throat<double> t) {
 /// Pressure acts on the disc of each grain in the facet (segments that stick out and lenses taken off, so that discs
 /// and fluid area make up the facet); what the fluid area carries goes to the grains and walls by the surface that they
 /// wet in the throat domain.
-/// \par Domain  any throat. Where signed wetted areas have no common sign, as in a mesh that is no longer regular, their
-///              magnitudes count; where they vanish, the discs
+/// \par Domain  any throat. Where signed wetted areas have no common sign, as in a mesh that is no longer regular,
+///              their magnitudes count; where they vanish, the discs
 /// \par Accuracy  the parts sum to the area to 1e-14 of the largest square of a radius or edge; from the conductances
 ///                of another code, its forces on the grains to 5e-11 (tests/truth/system/peer_flow_test.cpp)
 /// \par Source  Chareyre et al. 2012, Transp. Porous Media 92, 473; Chareyre et al. 2017, §2.2
@@ -134,9 +134,10 @@ inline void add_outer(std::array<vec3<double>, 3>& rows, const vec3<double>& a, 
 /// along the arc that its disc has in the facet; this is where it acts when the throat is symmetric. No torque comes
 /// from shear between grains that move, for which there are lubrication laws.
 ///
-/// Stress: (1/V) Σ ∫ x ⊗ t dA over the surfaces of all grains, x from the centre of each, V the volume of the network. It
-/// is (1/V) Σ over the sectors of (c ⊗ F − p V_sector I), with c the centroid of the sector of a facet for its pressure
-/// force, and the point of action of the shear. Exact for the pressure while no disc is cut by the opposite edge.
+/// Stress: (1/V) Σ ∫ x ⊗ t dA over the surfaces of all grains, x from the centre of each, V the volume of the network.
+/// It is (1/V) Σ over the sectors of (c ⊗ F − p V_sector I), with c the centroid of the sector of a facet for its
+/// pressure force, and the point of action of the shear. Exact for the pressure while no disc is cut by the opposite
+/// edge.
 /// \param pressure       the one that drives the flow: saturated_flow::driving_pressure; see `buoyancy` for the rest
 /// \param mean_gradient  of a periodic box [Pa/m]
 /// \param with_stress    computes the stress too; it needs the solid angles of all cells

@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-// Yade's flow through open_200 and open_1000: pressure, permeability and the force on each grain, from its own cells and
-// conductances; and what our conductances change, class by class of facets. Yade's walls are spheres of 5·10⁴ box
+// Yade's flow through open_200 and open_1000: pressure, permeability and the force on each grain, from its own cells
+// and conductances; and what our conductances change, class by class of facets. Yade's walls are spheres of 5·10⁴ box
 // lengths, ours are planes: a grain beside a wall can agree to 1e-5 only.
 
 using namespace tetrapore;
@@ -209,8 +209,8 @@ TEST_CASE("our conductances give the peer's permeability within 3 %; which facet
     auto flow = flow_of(peer->net, law, between(face::y_min, 1, face::y_max, 0));
     std::vector<double> ours = flow.conductances().values;
     for (std::size_t i = 0; c.wall == wall_condition::slip && i < ours.size(); ++i) {
-      // the peer's convention: a throat loses a factor √2 for each slip wall (ours keeps the whole conductance, which is
-      // what a mirror plane asks for)
+      // the peer's convention: a throat loses a factor √2 for each slip wall (ours keeps the whole conductance, which
+      // is what a mirror plane asks for)
       const throat_id t(i);
       const int walls = 3 - static_cast<int>(flow.system().nodes().throat_between(peer->net, t).grain_count);
       ours[i] *= std::pow(2.0, -0.5 * walls);
