@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <utility>
@@ -58,18 +59,28 @@ class saturated_flow {
     system_ = flow_system(net, std::move(nodes), options_.conditions, options_.fluid);
     pressure_ = pressure_field(net);
     driving_ = pressure_field(net);
+    pressure_epoch_ = net.epoch();
     solver_.analyze(system_.graph());
   }
 
   /// To be called when the network has followed its grains or was rebuilt. After a rebuild the pressure starts from 0
   /// unless it was carried.
-  /// \throw as the constructor
+  /// \throw as the constructor; parameter_error where conditions name single pores, which a rebuild has renumbered
   void update() {
+    if (net_->epoch() != pressure_epoch_ && !system_.conditions().pores.empty()) {
+      throw parameter_error("conditions of single pores", "pores of epoch " + std::to_string(pressure_epoch_),
+                            "update(conditions) with those of epoch " + std::to_string(net_->epoch()));
+    }
+    update(system_.conditions());
+  }
+  /// The same, with other conditions.
+  void update(flow_conditions conditions) {
     flow_nodes nodes(*net_, options_.nodes);
     conductances_ = tetrapore::conductances(*net_, nodes, law_, options_.refused);
-    if (!system_.follow(*net_, std::move(nodes))) {
+    if (!system_.follow(*net_, std::move(nodes), std::move(conditions))) {
       solver_.analyze(system_.graph());
     }
+    pressure_epoch_ = net_->epoch();
     if (!pressure_.belongs_to(*net_)) {
       pressure_ = pressure_field(*net_);
     }
@@ -201,6 +212,9 @@ class saturated_flow {
     expect_answer(report);
     report_ = report;
     near_ = report.ok();
+    if (report.kind() == verdict::failed && report.reason != solve_status::not_converged) {
+      return report_;  // there is no x: the pressure stays
+    }
     x_ = system_.with_held(x);
     if (per_time > 0) {
       system_.take_up(x_, per_time, inflow);
@@ -271,6 +285,7 @@ class saturated_flow {
   std::vector<double> inflow_;  ///< per node: what it gave to its throats, if it is no held one [m³/s]
   solve_report report_;
   double per_time_ = 0;
+  std::uint64_t pressure_epoch_ = 0;
   bool factorized_ = false;
   bool near_ = false;  ///< the pressure is a guess of the next one
 };

@@ -56,11 +56,13 @@ class flow_system {
   }
 
   /// The network has followed its grains, or is a new one. True when the graph has stayed.
-  bool follow(const network& net, flow_nodes nodes) {
+  /// \throw parameter_error  as the constructor
+  bool follow(const network& net, flow_nodes nodes, flow_conditions conditions) {
+    detail::check(net, conditions, fluid_);
+    conditions_ = std::move(conditions);
     const bool same_groups = nodes.same_groups(nodes_);
     const std::vector<std::uint8_t> before = std::move(label_);
     nodes_ = std::move(nodes);
-    detail::check(net, conditions_, fluid_);
     locate(net);
     hold(net);
     const bool same = same_groups && free_set_is(before);

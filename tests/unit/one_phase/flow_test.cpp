@@ -280,3 +280,18 @@ TEST_CASE("the flow follows its grains, and new conditions need a new solution")
   CHECK(box_permeability(flow, face::x_min, face::x_max, 2.0) == doctest::Approx(3 * q * 2.0 * 4 / (6 * 3)));
   CHECK_THROWS_AS((void)box_permeability(flow, face::x_min, face::y_max, 2.0), parameter_error);
 }
+
+TEST_CASE("conditions of single pores are asked for again after a rebuild") {
+  network net = box_of_two();
+  flow_options o;
+  o.conditions.pores.push_back({pore_id(3), held_pressure(1)});
+  auto flow = make(net, o);
+  CHECK(flow.solve().ok());
+  net = network(net.arrays(), net.epoch() + 1);
+  CHECK_THROWS_WITH_AS(flow.update(), doctest::Contains("conditions of single pores"), parameter_error);
+  flow.update({.pores = {{pore_id(5), held_pressure(2)}}});
+  CHECK(flow.solve().ok());
+  for (const double p : flow.pressure().values()) {
+    CHECK(p == 2);
+  }
+}
