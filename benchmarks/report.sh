@@ -45,13 +45,15 @@ for file in "${json[@]}"; do
     def seconds: .real_time * {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1}[.time_unit];
     ["name","family_index","per_family_instance_index","run_name","run_type","repetitions","repetition_index",
      "threads","iterations","real_time","cpu_time","time_unit","label","error","failed","aggregate_name",
-     "aggregate_unit"] as $known
+     "aggregate_unit","per_pore","per_grain"] as $known
     | .benchmarks[] | select(.run_type == "iteration")
     | if .error_occurred then error("\(.name): \(.error_message)") else . end
     | if has("error") and has("failed") then . else error("\(.name) reports no error or no failed cases") end
     | [(.name | split("/")[0]), .name + (if .label then " (" + .label + ")" else "" end), seconds, .error, .failed,
        ([to_entries[] | select(.key as $k | $known | index($k) | not)
-         | "\(.key) \(.value | if type == "number" then (. * 1000 | round / 1000) else . end)"] | join(", "))]
+         | "\(.key) \(.value | if type == "number" then (. * 1000 | round / 1000) else . end)"]
+        + (if .pores then ["\(1e9 * seconds / .pores | round) ns per pore"] else [] end) | join(", ")),
+       (.pores // "")]
     | @tsv' "$file" >"$scratch/rows"
 
   {
@@ -69,6 +71,27 @@ for file in "${json[@]}"; do
     ' "$scratch/rows"
     printf '\n![Time against worst error of the rows above](benchmarks/%s.svg)\n' "$name"
   } >>"$scratch/page"
+
+  # Where rows say how many pores they work on: what one costs, against their number.
+  awk -F '\t' '$7 != "" { print $1 "\t" $7 "\t" $3 / $7 * 1e6 }' "$scratch/rows" >"$scratch/sizes"
+  if [ -s "$scratch/sizes" ]; then
+    printf '\n![Cost of a pore against the number of pores](benchmarks/%s_size.svg)\n' "$name" >>"$scratch/page"
+    {
+      echo "set terminal svg size 800,560 font 'sans,13' background 'white' rounded"
+      echo "set output '$pictures/${name}_size.svg'"
+      echo "set title '${name//_/ }: cost of a pore against their number' noenhanced"
+      echo "set logscale xy; set format x '10^{%T}'; set grid lw 0.5 lc rgb '#dddddd'"
+      echo "set xlabel 'pores'; set ylabel 'time per pore [µs]'"
+      echo "set key outside bottom center horizontal noenhanced; set offsets graph 0.08, graph 0.08, graph 0.08, graph 0.08"
+      printf 'plot '
+      while IFS= read -r one; do
+        awk -F '\t' -v s="$one" '$1 == s { print $2 "\t" $3 }' "$scratch/sizes" | sort -g >"$scratch/size_${#one}_$one"
+        printf "'%s' with linespoints pt 7 ps 0.7 title '%s', " "$scratch/size_${#one}_$one" "${one//\'/}"
+      done < <(cut -f1 "$scratch/sizes" | sort -u) | sed 's/, $//'
+      echo
+    } >"$scratch/size.gp"
+    gnuplot "$scratch/size.gp"
+  fi
 
   # An error of 0 has no logarithm: such rows stand at 1e-17, left of what a double can tell.
   awk -F '\t' '{ e = $4 < 1e-17 ? 1e-17 : $4; printf "%s\t%s\t%.6g\t%.6g\n", $1, $2, e, $3 }' "$scratch/rows" |
