@@ -307,9 +307,12 @@ class pairwise_aggregation {
 ///
 /// Nodes are merged pair by pair, best quality first; conductances and excess of a coarser level are sums of those of the
 /// finer one, so that nothing cancels and floating clusters stay floating. One symmetric Gauss-Seidel sweep per level; the
-/// last level is solved by the subtraction-free LDLᵀ. Conductances are held relative to the largest, and those that
-/// would vanish in T are raised to its smallest normal number.
-/// \tparam T  what conductances and vectors of the hierarchy are held in: float costs no iterations, and less memory
+/// last level is solved by the subtraction-free LDLᵀ. Vectors and diagonals are held in double: in float a cluster that
+/// hangs on the rest by 1e-8 of its own conductances would lose its balance to rounding.
+/// \tparam T  what conductances are held in, relative to the largest; those that would vanish are raised to the smallest
+///            normal number of T. float costs no iterations, and a quarter less memory
+/// \par Domain  any graph. Made for few neighbours per node; where merging stalls above 5 · coarsest nodes, the last level
+///              is only smoothed, and iterations grow
 /// \par Thread safety  none: a cycle works in the hierarchy
 /// \par Source  Notay, Electron. Trans. Numer. Anal. 37 (2010) 123 (quality of aggregates); Braess, Computing 55 (1995) 379
 ///              (the stretched correction)
