@@ -2,10 +2,11 @@
 #pragma once
 
 /// \file
-/// Everything of one-phase flow: pressure, forces on the grains, permeability.
+/// Everything of one-phase flow: pressure, forces on the grains, permeability, grains that move.
 
 #include "tetrapore/one_phase/conditions.hpp"
 #include "tetrapore/one_phase/conductances.hpp"
+#include "tetrapore/one_phase/coupling.hpp"
 #include "tetrapore/one_phase/flow.hpp"
 #include "tetrapore/one_phase/flow_system.hpp"
 #include "tetrapore/one_phase/forces.hpp"
