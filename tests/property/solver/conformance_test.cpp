@@ -73,3 +73,23 @@ TEST_CASE("a warm start near the solution saves half of the iterations") {
   }
   CHECK(2 * solver.solve(c.b, x, {.warm = true}).iterations <= cold + 2);
 }
+
+TEST_CASE("pressures imposed by an excess of 1e12 cost no iterations") {
+  pressure_case c = packing_like(24, 1.0, 8);
+  std::mt19937_64 random(6);
+  for (std::size_t i = 0; i < c.s.size(); ++i) {
+    if (c.s[i] > 0 || random() % 20 == 0) {  // on two faces, and in 5 % of the nodes
+      c.b[i] = 1e12 * (c.s[i] > 0 ? c.b[i] : 0.5);
+      c.s[i] = 1e12;
+    }
+  }
+  multigrid_solver<> solver;
+  solver.analyze(c.graph);
+  REQUIRE(solver.factorize(c.w, c.s).ok());
+  std::vector<double> x(c.b.size());
+  const solve_report report = solver.solve(c.b, x);
+  REQUIRE(report.ok());
+  CAPTURE(report.iterations);
+  CHECK(report.iterations <= 20);
+  CHECK(relative_error(x, refined_truth<multigrid_solver<double>>(c)) <= 1e-8);
+}
