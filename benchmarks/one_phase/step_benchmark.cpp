@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // One step of a saturated flow through dense grains, from spheres to the forces on them, and its parts: `triangulate`,
-// `laws` (nodes and conductances), `pressures` (hierarchy and solution), `forces`; `whole` does them all, graph included,
-// `follow_and_solve` all but the triangulation, on a network that follows its grains. `error` is the part of the boundary pressure force that
-// the forces on grains and walls miss, `failed` is 1 where the solver says that it has not solved.
+// `laws` (nodes and conductances), `pressures` (hierarchy and solution), `forces`; `whole` does them all, graph
+// included, `follow_and_solve` all but the triangulation, on a network that follows its grains. `error` is the part of
+// the boundary pressure force that the forces on grains and walls miss, `failed` is 1 where the solver says that it has
+// not solved.
 
 #include "support/dense_packing.hpp"
 #include "tetrapore/law/conductance/hydraulic_radius.hpp"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The pressure system of dense grains by our own solvers, against its size: six pores per grain, from 5,900 to 6.7 million
-// pores. `error` is the largest against long double, relative to the largest pressure; `failed` is 1 where the solver says
-// that it has not solved. Rows `cold` begin from the graph, `factorize` gives the hierarchy of other conductances on the
-// same graph, `resolve` begins from it, `warm` from the solution of conductances that have moved by 1 % too. Times per
-// pore stand beside those of one residual in flux form, which is one pass over the edges.
+// The pressure system of dense grains by our own solvers, against its size: six pores per grain, from 5,900 to 6.7
+// million pores. `error` is the largest against long double, relative to the largest pressure; `failed` is 1 where the
+// solver says that it has not solved. Rows `cold` begin from the graph, `factorize` gives the hierarchy of other
+// conductances on the same graph, `resolve` begins from it, `warm` from the solution of conductances that have moved by
+// 1 % too. Times per pore stand beside those of one residual in flux form, which is one pass over the edges.
 
 #include "solver/system.hpp"
 #include "tetrapore/solver/ldlt.hpp"

@@ -139,8 +139,8 @@ class gradient_map {
     return std::abs(drops_[*nearest]) * profile.density(profile.distance(local + shift));
   }
 
-  /// Of what the flow dissipates in the throats seen so far, the share that is spent nearer to the facet than a quarter of
-  /// the way between the nodes. An even gradient would spend one half there.
+  /// Of what the flow dissipates in the throats seen so far, the share that is spent nearer to the facet than a quarter
+  /// of the way between the nodes. An even gradient would spend one half there.
   [[nodiscard]] double spent_at_throats(std::span<const double> conductances) const {
     double near = 0;
     double all = 0;

@@ -133,9 +133,9 @@ template <tetrapore::network_solver Solver>
   return static_cast<double>(size > 0 ? error / size : error);
 }
 
-/// A graph like that of a packing: a cubic lattice of side³ nodes, of which two edges in three are kept, so that a node has
-/// four neighbours, with conductances spread log-normally and one in a hundred up to 1e7 times larger, as between nearly
-/// coincident centres. Pressures 1 and 0 are imposed on two faces; `power` stretches the contrast.
+/// A graph like that of a packing: a cubic lattice of side³ nodes, of which two edges in three are kept, so that a node
+/// has four neighbours, with conductances spread log-normally and one in a hundred up to 1e7 times larger, as between
+/// nearly coincident centres. Pressures 1 and 0 are imposed on two faces; `power` stretches the contrast.
 [[nodiscard]] inline pressure_case packing_like(std::size_t side, double power, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   const auto uniform = [&] { return static_cast<double>(random() >> 11U) * 0x1p-53; };

@@ -62,8 +62,8 @@ struct facet_areas {
   [[nodiscard]] constexpr T fluid() const noexcept { return whole - (disc[0] + disc[1] + disc[2]); }
 };
 
-/// The areas where a disc is its sector less half a segment at each neighbour that it overlaps: three discs of which none
-/// reaches the opposite edge or what two others share. Returns false where it is not so.
+/// The areas where a disc is its sector less half a segment at each neighbour that it overlaps: three discs of which
+/// none reaches the opposite edge or what two others share. Returns false where it is not so.
 template <real T>
 [[nodiscard]] bool sectors_in_facet(const throat<T>& t, facet_areas<T>& out) noexcept {
   using std::atan2;

@@ -27,9 +27,11 @@ class flux_operator;
 }
 }  // namespace tetrapore::inline TETRAPORE_ABI
 
+/// \cond
 template <>
 struct Eigen::internal::traits<tetrapore::detail::flux_operator>
     : Eigen::internal::traits<Eigen::SparseMatrix<double>> {};
+/// \endcond
 
 namespace tetrapore::inline TETRAPORE_ABI {
 
@@ -123,6 +125,7 @@ class ready_made : public Preconditioner {
 }  // namespace detail
 }  // namespace tetrapore::inline TETRAPORE_ABI
 
+/// \cond
 template <class Rhs>
 struct Eigen::internal::generic_product_impl<tetrapore::detail::flux_operator, Rhs, Eigen::SparseShape,
                                              Eigen::DenseShape, Eigen::GemvProduct>
@@ -133,6 +136,7 @@ struct Eigen::internal::generic_product_impl<tetrapore::detail::flux_operator, R
     a.add_product(y, x, scale);
   }
 };
+/// \endcond
 
 namespace tetrapore::inline TETRAPORE_ABI {
 

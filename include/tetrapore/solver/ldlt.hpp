@@ -18,8 +18,8 @@ namespace tetrapore::inline TETRAPORE_ABI {
 
 namespace detail {
 
-/// An order of elimination with little fill, and the fill: minimum degree on a quotient graph, with the degrees bounded as
-/// in Amestoy, Davis & Duff, SIAM J. Matrix Anal. Appl. 17 (1996) 886.
+/// An order of elimination with little fill, and the fill: minimum degree on a quotient graph, with the degrees bounded
+/// as in Amestoy, Davis & Duff, SIAM J. Matrix Anal. Appl. 17 (1996) 886.
 class elimination_order {
  public:
   /// Rows of a symmetric pattern; entries may repeat, and the diagonal is ignored.
@@ -182,11 +182,11 @@ class elimination_order {
 
 }  // namespace detail
 
-/// The factor of a pressure system by the elimination of nodes, in the way of Grassmann, Taksar and Heyman: with the pivot
-/// d = s_k + Σ_j w_kj over the nodes left, node k adds w_ik w_kj / d to w_ij, w_ik s_k / d to s_i and w_ik b_k / d to b_i.
-/// Nothing is subtracted, so every conductance, excess and pivot holds to a few ε, whatever the contrast, and sources of
-/// one sign give every x to a few ε. A cluster without excess ends in a pivot that is exactly zero, where x is set to
-/// zero.
+/// The factor of a pressure system by the elimination of nodes, in the way of Grassmann, Taksar and Heyman: with the
+/// pivot d = s_k + Σ_j w_kj over the nodes left, node k adds w_ik w_kj / d to w_ij, w_ik s_k / d to s_i and w_ik b_k /
+/// d to b_i. Nothing is subtracted, so every conductance, excess and pivot holds to a few ε, whatever the contrast, and
+/// sources of one sign give every x to a few ε. A cluster without excess ends in a pivot that is exactly zero, where x
+/// is set to zero.
 /// \par Accuracy  relative error of each entry of A⁻¹ of order n ε, independent of contrast
 /// \par Source  O'Cinneide, Numer. Math. 65 (1993) 109; Alfa, Xue & Ye, Math. Comp. 71 (2002) 217
 template <std::floating_point Real>

@@ -17,8 +17,8 @@
 
 namespace tetrapore::inline TETRAPORE_ABI {
 
-/// The system Σ_j w_ij (x_i − x_j) + s_i x_i = b_i on a graph: checked, split into clusters, with its residual in the form
-/// of fluxes, so that no digit of a small conductance is lost beside a large one.
+/// The system Σ_j w_ij (x_i − x_j) + s_i x_i = b_i on a graph: checked, split into clusters, with its residual in the
+/// form of fluxes, so that no digit of a small conductance is lost beside a large one.
 ///
 /// A solver calls `analyze`, `factorize`, and for each solution `begin`, its own method on `sources()`, and `finish`.
 class pressure_system {
@@ -145,8 +145,8 @@ class pressure_system {
     }
   }
 
-  /// ‖D^-½ r‖: the norm in which a sealed pore counts as much as a wide one. Nodes without conductance and excess have no
-  /// part in it.
+  /// ‖D^-½ r‖: the norm in which a sealed pore counts as much as a wide one. Nodes without conductance and excess have
+  /// no part in it.
   [[nodiscard]] double scaled_norm(std::span<const double> r) const noexcept {
     double largest = 0;
     for (std::size_t i = 0; i < r.size(); ++i) {
@@ -156,8 +156,8 @@ class pressure_system {
     return largest;
   }
 
-  /// Gives x zero mean in floating clusters and measures what was reached. Keeps the reason of the report, except that x
-  /// which is not finite is out of range.
+  /// Gives x zero mean in floating clusters and measures what was reached. Keeps the reason of the report, except that
+  /// x which is not finite is out of range.
   void finish(std::span<double> x, solve_report& report) {
     if (!floating_.empty()) {
       subtract_means(x, sum_floating(x));

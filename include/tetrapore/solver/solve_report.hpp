@@ -103,8 +103,8 @@ struct solve_report {
   /// ‖r‖ / (‖b‖ + ‖A‖ ‖x‖) in the largest norm, of the x that is returned.
   double backward_error = 0;
   /// Estimated largest error of x over the largest |x|: the preconditioner applied to the residual, which multigrid
-  /// solvers check before they stop. A normwise backward error says little where conductances differ by 1e17; this does.
-  /// Negative: not estimated.
+  /// solvers check before they stop. A normwise backward error says little where conductances differ by 1e17; this
+  /// does. Negative: not estimated.
   double error_estimate = -1;
   std::size_t index = none;           ///< node or edge that the reason is about
   std::size_t clusters = 0;           ///< connected by positive conductances; an isolated node is one

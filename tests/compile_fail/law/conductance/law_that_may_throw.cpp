@@ -3,8 +3,10 @@
 // expect: conductance\(t\). (is not .noexcept|may throw)
 #include "tetrapore/law/conductance/concept.hpp"
 
+using answer = tetrapore::outcome<double, tetrapore::conductance_status>;
+
 struct mine {
-  tetrapore::outcome<double, tetrapore::conductance_status> conductance(const tetrapore::throat<double>&) const {
+  answer conductance(const tetrapore::throat<double>&) const {
     return {1.0, tetrapore::conductance_status::ok};
   }
 };

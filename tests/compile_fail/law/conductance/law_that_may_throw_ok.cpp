@@ -2,8 +2,10 @@
 // A law is noexcept: a driver calls it in the middle of a loop.
 #include "tetrapore/law/conductance/concept.hpp"
 
+using answer = tetrapore::outcome<double, tetrapore::conductance_status>;
+
 struct mine {
-  tetrapore::outcome<double, tetrapore::conductance_status> conductance(const tetrapore::throat<double>&) const noexcept {
+  answer conductance(const tetrapore::throat<double>&) const noexcept {
     return {1.0, tetrapore::conductance_status::ok};
   }
 };
