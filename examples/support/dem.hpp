@@ -137,7 +137,6 @@ class dem {
   /// \throw packing_error  when they do not
   std::size_t relax(double tolerance, std::size_t most_steps = 2000000) {
     const double dt = time_step();
-    const auto slowed = [](double f, double v) { return f - (v > 0 ? 1 : v < 0 ? -1 : 0) * 0.3 * std::abs(f); };
     for (std::size_t step = 0; step < most_steps; ++step) {
       push();
       if (step % 100 == 99 && unbalanced() <= tolerance && std::abs(piston_force - load) <= tolerance * load) {
@@ -145,15 +144,30 @@ class dem {
         piston_velocity = 0;
         return step;
       }
-      for (std::size_t i = 0; i < grains.size(); ++i) {
-        for (std::size_t k = 0; k < 3; ++k) {
-          forces[i][k] = slowed(forces[i][k], velocities[i][k]);
-        }
-      }
-      piston_force = load + slowed(piston_force - load, piston_velocity);
+      slow_down();
       move(dt);
     }
     throw tp::packing_error("the grains", "an unbalanced force of " + std::to_string(unbalanced()), "rest");
+  }
+
+  /// Shortens the box evenly over its height, all grains with it, until the piston carries its load; then lets the grains
+  /// come to rest. A piston alone would leave the column denser at one end.
+  /// \return steps taken
+  std::size_t compact(double tolerance) {
+    constexpr double rate = 1e-4;  // per step
+    std::size_t steps = 0;
+    const double wanted = std::exchange(load, 0.0);  // holds the piston
+    for (push(); piston_force + base_force_ < 2 * wanted; push(), ++steps) {
+      for (auto& g : grains) {
+        g.centre.y = bounds.lo.y + (g.centre.y - bounds.lo.y) * (1 - rate);
+      }
+      bounds.hi.y = bounds.lo.y + height() * (1 - rate);
+      push();
+      slow_down();
+      move(time_step());
+    }
+    load = wanted;
+    return steps + relax(tolerance);
   }
 
   /// Largest force on a grain over the mean force of a contact.
@@ -181,6 +195,17 @@ class dem {
   [[nodiscard]] double contact_force(double depth, double approach_rate, double stiffness, double mass) const {
     // approach_rate > 0 where the two part
     return stiffness * depth - 2 * material_.damping * std::sqrt(stiffness * mass) * approach_rate;
+  }
+
+  /// Takes a share off the forces that drive the motion, and adds it to those that brake it.
+  void slow_down() {
+    const auto slowed = [](double f, double v) { return f - (v > 0 ? 1 : v < 0 ? -1 : 0) * 0.3 * std::abs(f); };
+    for (std::size_t i = 0; i < grains.size(); ++i) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        forces[i][k] = slowed(forces[i][k], velocities[i][k]);
+      }
+    }
+    piston_force = load + slowed(piston_force - load, piston_velocity);
   }
 
   [[nodiscard]] bool moved_since_search() const {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <iterator>
 #include <span>
@@ -150,6 +151,19 @@ void add_to(F& f, const vec3<double>& x) {
   }
 }
 
+/// The sharing that goes with a law: walls that the law lets slip take no shear.
+template <class Sharing, class Law>
+[[nodiscard]] Sharing sharing_of(const Law& law) {
+  if constexpr (requires {
+                  { law.wall } -> std::convertible_to<wall_condition>;
+                  Sharing{law.wall};
+                }) {
+    return Sharing{law.wall};
+  } else {
+    return Sharing{};
+  }
+}
+
 /// Weights by which the velocities of the vertices of a facet sweep it: the mean of what is linear between them. A wall
 /// takes none, for a facet that stands on a wall contains its normal.
 [[nodiscard]] inline std::array<double, 3> sweeping_weights(const throat<double>& t) noexcept {
@@ -181,8 +195,11 @@ class coupled_flow {
  public:
   /// \param net  with the grains where they are now
   /// \throw as saturated_flow; parameter_error  an explicit step without compressibility
-  coupled_flow(network net, Law law, Solver solver, flow_options flow = {}, coupling_options options = {},
-               Sharing sharing = {})
+  coupled_flow(network net, Law law, Solver solver, flow_options flow = {}, coupling_options options = {})
+      : coupled_flow(std::move(net), law, std::move(solver), std::move(flow), options,
+                     detail::sharing_of<Sharing>(law)) {}
+  /// The same, with a sharing of the caller's; without one, walls take shear where the law says that the fluid sticks.
+  coupled_flow(network net, Law law, Solver solver, flow_options flow, coupling_options options, Sharing sharing)
       : net_(std::move(net)),
         options_(options),
         flow_options_(std::move(flow)),
