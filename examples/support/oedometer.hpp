@@ -9,13 +9,13 @@
 #include "tetrapore/solver/ldlt.hpp"
 #include "tetrapore/tessellation/cgal.hpp"
 
+#include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <numbers>
-#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -60,7 +60,7 @@ void for_terms(double time, const F& f) {
 }  // namespace terzaghi
 
 struct oedometer_options {
-  std::size_t grains = 800;
+  std::size_t grains = 1200;
   double radius = 1e-3;       ///< mean [m]
   double spread = 0.15;       ///< radii lie within (1 ± spread) × radius
   double slenderness = 5;     ///< height over width, before the first load
@@ -237,6 +237,7 @@ template <class Flow>
   double squares = 0;
   double next_row = 0;
   double previous = 0;
+  double last_volume = first_volume;  // at the last step of the fluid
   for (double time = 0; time < o.end;) {
     if (out.steps % 50 == 0 &&
         flow.rebuild_due({.every = o.rebuild_every, .strain = o.rebuild_strain}) != tp::rebuild_reason::none) {
@@ -249,8 +250,9 @@ template <class Flow>
     box.walls[static_cast<std::size_t>(tp::face::y_max)].y = grains.piston_velocity;
     const tp::coupling_report report =
         flow.step(out.time_step, grains.grains, grains.velocities, grains.forces, box);
-    out.unsolved += report.ok() ? 0 : 1;
+    out.unsolved += report.ok() ? 0U : 1U;
     grains.piston_force += flow.wall_forces()[static_cast<std::size_t>(tp::face::y_max)].y;
+    last_volume = grains.volume();
     grains.move(out.time_step, added);
     ++out.steps;
     previous = time;
@@ -284,7 +286,7 @@ template <class Flow>
     out.pressure_error_rms = std::sqrt(squares / static_cast<double>(layers * out.profiles.size()));
   }
   out.mass_defect = flow.ledger().defect() / flow.ledger().throughput;
-  const double swept = first_volume - grains.volume();
+  const double swept = first_volume - last_volume;
   out.volume_defect = std::abs(flow.ledger().outflow - swept) / swept;
   return out;
 }
