@@ -27,7 +27,7 @@ endmacro()
 
 # What a program links follows from what its sources include, through our own headers: one row per dependency, the start
 # of the included name (a regular expression), then nothing for a component of tetrapore; a package, its target and its
-# Debian package; or a target of our own.
+# Debian package; or a target of our own, with the function tetrapore_add_<target> that makes it.
 set(tetrapore_dependency_rows cgal eigen cholmod cli png eigen_oracle compiled_triangulation)
 set(tetrapore_dependency_cgal "tetrapore/tessellation/cgal\\.hpp")
 set(tetrapore_dependency_eigen "tetrapore/solver/eigen\\.hpp")
@@ -36,6 +36,16 @@ set(tetrapore_dependency_cli "CLI/" CLI11 CLI11::CLI11 libcli11-dev)
 set(tetrapore_dependency_png "png\\.h" PNG PNG::PNG libpng-dev)
 set(tetrapore_dependency_eigen_oracle "Eigen/" Eigen3 Eigen3::Eigen libeigen3-dev)
 set(tetrapore_dependency_compiled_triangulation "support/compiled_triangulation\\.hpp" compiled_triangulation)
+
+# CGAL compiled once for all tests and benchmarks that only want a network.
+function(tetrapore_add_compiled_triangulation)
+  if(NOT TARGET compiled_triangulation)
+    tetrapore_require_component(cgal)
+    add_library(compiled_triangulation STATIC "${PROJECT_SOURCE_DIR}/tests/support/compiled_triangulation.cpp")
+    target_link_libraries(compiled_triangulation PRIVATE tetrapore_developer tetrapore::cgal)
+    target_include_directories(compiled_triangulation PRIVATE "${PROJECT_SOURCE_DIR}/tests")
+  endif()
+endfunction()
 
 function(tetrapore_collect_includes file out seen_out)
   set(names "${${out}}")
@@ -83,6 +93,7 @@ function(tetrapore_program target)
     endif()
     list(LENGTH rule parts)
     if(parts EQUAL 1)
+      cmake_language(CALL tetrapore_add_${rule})
       target_link_libraries(${target} PRIVATE ${rule})
     elseif(parts EQUAL 3)
       list(GET rule 0 package)

@@ -6,11 +6,11 @@
 // the boundary pressure force that the forces on grains and walls miss, `failed` is 1 where the solver says that it has
 // not solved.
 
+#include "support/compiled_triangulation.hpp"
 #include "support/dense_packing.hpp"
 #include "tetrapore/law/conductance/hydraulic_radius.hpp"
 #include "tetrapore/one_phase.hpp"
 #include "tetrapore/solver/multigrid.hpp"
-#include "tetrapore/tessellation/cgal.hpp"
 
 #include <benchmark/benchmark.h>
 
@@ -32,7 +32,7 @@ const packing& packing_of(const benchmark::State& state) {
   return entry->second;
 }
 
-network triangulated(const packing& p) { return cgal_triangulation{}(p.grains, domain_of(p)).net; }
+network triangulated(const packing& p) { return compiled_triangulation{}(p.grains, domain_of(p)).net; }
 
 flow_of_the_step flow_through(const network& net) {
   flow_options options;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "support/compiled_triangulation.hpp"
 #include "support/dense_packing.hpp"
 #include "tetrapore/law/conductance/hydraulic_radius.hpp"
 #include "tetrapore/one_phase/conductances.hpp"
 #include "tetrapore/one_phase/flow_system.hpp"
 #include "tetrapore/solver/hierarchy.hpp"
 #include "tetrapore/solver/pressure_system.hpp"
-#include "tetrapore/tessellation/cgal.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -155,7 +155,7 @@ struct pressure_case {
   c = std::make_unique<pressure_case>();
   if (how == contrast::natural) {
     const tp::packing p = dense_packing(grains);
-    const tp::network net = tp::tessellate(p.grains, tp::domain_of(p), tp::cgal_triangulation{}).net;
+    const tp::network net = tp::tessellate(p.grains, tp::domain_of(p), compiled_triangulation{}).net;
     tp::flow_nodes nodes(net);
     const auto k = tp::conductances(net, nodes, tp::hydraulic_radius{.viscosity = 1.0}, tp::refused_throats::closed);
     tp::flow_conditions between;

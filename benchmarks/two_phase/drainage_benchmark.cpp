@@ -5,10 +5,10 @@
 // thresholds the worst relative difference to long double; `failed` the throats for which the law failed
 // (lost_arc and merged: after the model of the gap).
 
+#include "support/compiled_triangulation.hpp"
 #include "support/dense_packing.hpp"
 #include "support/openings.hpp"
 #include "tetrapore/law/entry/mayer_stowe_princen.hpp"
-#include "tetrapore/tessellation/cgal.hpp"
 #include "tetrapore/two_phase.hpp"
 
 #include <benchmark/benchmark.h>
@@ -30,7 +30,7 @@ const network& dense(std::size_t n) {
   auto& net = made[n];
   if (!net) {
     const packing p = dense_packing(n);
-    net = std::make_unique<network>(tessellate(p.grains, domain_of(p), cgal_triangulation{}).net);
+    net = std::make_unique<network>(tessellate(p.grains, domain_of(p), compiled_triangulation{}).net);
   }
   return *net;
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "support/compiled_triangulation.hpp"
 #include "tetrapore/law/conductance/hydraulic_radius.hpp"
 #include "tetrapore/network/solid.hpp"
 #include "tetrapore/one_phase/coupling.hpp"
 #include "tetrapore/packing/random_packing.hpp"
 #include "tetrapore/solver/ldlt.hpp"
-#include "tetrapore/tessellation/cgal.hpp"
 
 #include <doctest/doctest.h>
 
@@ -34,7 +34,7 @@ packing grains_in_a_box(std::uint64_t seed = 4, std::array<bool, 3> periodic = {
   return random_packing(radii, {.solid_fraction = 0.5, .periodic = periodic, .aspect = aspect, .seed = seed});
 }
 
-network mesh_of(const packing& p) { return cgal_triangulation{}(p.grains, domain_of(p)).net; }
+network mesh_of(const packing& p) { return compiled_triangulation{}(p.grains, domain_of(p)).net; }
 
 std::vector<vec> random_velocities(std::size_t n, std::uint64_t seed = 9) {
   random_sequence random(seed);
@@ -90,8 +90,7 @@ void move(packing& p, compression& c, double dt) {
     p.grains[i].centre += c.velocities[i] * dt;
   }
   for (const face f : all_faces) {
-    (is_max(f) ? p.bounds->hi : p.bounds->lo)[axis_of(f)] +=
-        c.box.walls[static_cast<std::size_t>(f)][axis_of(f)] * dt;
+    (is_max(f) ? p.bounds->hi : p.bounds->lo)[axis_of(f)] += c.box.walls[static_cast<std::size_t>(f)][axis_of(f)] * dt;
   }
   c.box.bounds = *p.bounds;
 }
@@ -200,7 +199,7 @@ TEST_CASE("no fluid is lost: a piston presses out what it sweeps, compression an
       CHECK(r.refreshed == (step % 20 != 0));
       move(p, c, dt);
       if (step % 20 == 19) {
-        flow.rebuild(cgal_triangulation{}, p.grains, *p.bounds);
+        flow.rebuild(compiled_triangulation{}, p.grains, *p.bounds);
       }
     }
     const fluid_ledger& l = flow.ledger();
@@ -313,7 +312,7 @@ TEST_CASE("to triangulate anew changes the pressure by little, and keeps what is
   };
   const double kept = content();
   const auto before = extremes();
-  const transfer way = flow.rebuild(cgal_triangulation{}, p.grains, *p.bounds);
+  const transfer way = flow.rebuild(compiled_triangulation{}, p.grains, *p.bounds);
   CHECK(way.to_epoch() == flow.net().epoch());
   CHECK(flow.pressure().belongs_to(flow.net()));
   CHECK(flow.steps_since_rebuild() == 0);
