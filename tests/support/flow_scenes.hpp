@@ -2,7 +2,6 @@
 #pragma once
 
 #include "support/compiled_triangulation.hpp"
-#include "support/compiled_triangulation.hpp"
 #include "tetrapore/law/conductance/hydraulic_radius.hpp"
 #include "tetrapore/network/solid.hpp"
 #include "tetrapore/one_phase.hpp"

@@ -3,6 +3,7 @@
 
 #include "tetrapore/core/contracts.hpp"
 
+#include <cstdio>
 #include <stdexcept>
 #include <string>
 
@@ -10,6 +11,13 @@
 /// Errors of set-up: thrown before anything is changed, and they name the place, the value and what was expected.
 
 namespace tetrapore::inline TETRAPORE_ABI {
+
+/// A number for a message: six digits, whatever its size. (std::to_string writes 1e-7 as 0.000000.)
+[[nodiscard]] inline std::string short_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
 
 /// Base of every exception of tetrapore.
 class setup_error : public std::runtime_error {

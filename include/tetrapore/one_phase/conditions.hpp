@@ -39,7 +39,8 @@ struct flow_condition {
   return {flow_condition::type::flux, value};
 }
 
-/// A condition on one pore; it goes before those of the faces that the pore touches.
+/// A condition on one pore; it goes before those of the faces that the pore touches, and holds for all pores that are
+/// one node with it (see flow_nodes). A flux of such a face is taken by the other pores.
 struct pore_condition {
   pore_id pore;
   flow_condition condition;
@@ -74,7 +75,7 @@ inline void check(const network& net, const flow_conditions& c, const pore_fluid
   using kind = flow_condition::type;
   const auto finite_value = [](const flow_condition& x, const std::string& where) {
     if (x.kind != kind::no_flow && !std::isfinite(x.value)) {
-      throw parameter_error(where, std::to_string(x.value), "a finite number");
+      throw parameter_error(where, short_number(x.value), "a finite number");
     }
   };
   for (const face f : all_faces) {
@@ -93,15 +94,15 @@ inline void check(const network& net, const flow_conditions& c, const pore_fluid
   }
   for (std::size_t k = 0; k < 3; ++k) {
     if (!std::isfinite(c.mean_gradient[k]) || (c.mean_gradient[k] != 0 && !net.region().is_periodic(k))) {
-      throw parameter_error("mean gradient along axis " + std::to_string(k), std::to_string(c.mean_gradient[k]),
+      throw parameter_error("mean gradient along axis " + std::to_string(k), short_number(c.mean_gradient[k]),
                             "a finite number, 0 unless the axis is periodic");
     }
   }
   if (!(fluid.bulk_modulus > 0)) {
-    throw parameter_error("bulk modulus", std::to_string(fluid.bulk_modulus), "a number above 0, or infinity");
+    throw parameter_error("bulk modulus", short_number(fluid.bulk_modulus), "a number above 0, or infinity");
   }
   if (!std::isfinite(fluid.density) || !finite(fluid.gravity)) {
-    throw parameter_error("density or gravity", std::to_string(fluid.density), "finite numbers");
+    throw parameter_error("density or gravity", short_number(fluid.density), "finite numbers");
   }
 }
 

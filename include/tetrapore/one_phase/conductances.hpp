@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -84,17 +85,25 @@ struct throat_conductances {
   conductance_counts counts;
 };
 
+/// Whether a number can be a conductance: finite and at least 0.
+[[nodiscard]] constexpr bool is_conductance(double k) noexcept {
+  return k >= 0 && k <= std::numeric_limits<double>::max();
+}
+
 /// Asks a law about every throat between two nodes, with the nodes where they stand.
-/// \throw network_error  a throat that the law refuses, unless such throats are to be closed; names it and the reason
+/// \throw network_error  a throat that the law refuses, unless such throats are to be closed; names it and the reason.
+///                       In any case one that the law gives a value which is no conductance
 template <conductance_law Law, executor E = serial>
 [[nodiscard]] throat_conductances conductances(const network& net, const flow_nodes& nodes, const Law& law,
                                                refused_throats refused = refused_throats::error, const E& cores = {}) {
   TETRAPORE_EXPECTS(nodes.pore_count() == net.pore_count(), "the nodes belong to the network");
   throat_conductances out;
   out.values.assign(net.throat_count(), 0.0);
+  throat_id impossible;
   std::mutex merge;
   cores.blocks(net.throat_count(), [&](std::size_t begin, std::size_t end) {
     conductance_counts mine;
+    throat_id mine_impossible;
     for (std::size_t i = begin; i < end; ++i) {
       const throat_id t(i);
       if (net.is_boundary(t) || nodes.inside(net, t)) {
@@ -103,10 +112,21 @@ template <conductance_law Law, executor E = serial>
       const auto answer = law.conductance(nodes.throat_between(net, t));
       mine.add(answer.reason, t);
       out.values[i] = answer.ok() ? answer.value : 0.0;
+      if (!is_conductance(out.values[i]) && !mine_impossible.valid()) {
+        mine_impossible = t;
+      }
     }
     const std::lock_guard lock(merge);
     out.counts.add(mine);
+    if (mine_impossible.valid() && (!impossible.valid() || mine_impossible < impossible)) {
+      impossible = mine_impossible;
+    }
   });
+  if (impossible.valid()) {
+    throw network_error("throat " + std::to_string(impossible.index()),
+                        "a conductance of " + short_number(out.values[impossible.index()]) + " from the law",
+                        "a finite number of at least 0, or a reason to refuse");
+  }
   if (const throat_id t = out.counts.first_refused(); refused == refused_throats::error && t.valid()) {
     const auto why = law.conductance(nodes.throat_between(net, t)).reason;
     throw network_error(

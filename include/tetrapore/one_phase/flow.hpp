@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "tetrapore/core/executor.hpp"
 #include "tetrapore/one_phase/conductances.hpp"
 #include "tetrapore/one_phase/flow_system.hpp"
 #include "tetrapore/one_phase/volume_rates.hpp"
@@ -26,7 +27,7 @@
 ///   solve_report report = flow.solve();
 ///   double q = flow.flux(face::y_min);            // [m³/s] into the network
 ///   const pressure_field& p = flow.pressure();    // [Pa]
-///   grain_forces f = forces_on_grains(flow);      // one_phase/forces.hpp
+///   fluid_forces f = forces_on_grains(flow);      // one_phase/forces.hpp
 ///   // the grains have moved
 ///   follow(net, grains);                          // or: carry(rebuild(net, engine, grains), flow.pressure());
 ///   flow.update();
@@ -45,30 +46,38 @@ struct flow_options {
 /// Σ_j K_ij (p_i − p_j) + V_void/(K_f Δt) (p_i − p_i,old) = −dV_i/dt on the pores of a network.
 ///
 /// Analyses the graph once per epoch (again where pores merge or part, or other pores are held), factorizes once per
-/// geometry and length of step, solves once per right-hand side, from the last pressure on.
+/// geometry and length of step, solves once per right-hand side. The solver starts from `pressure()` where the options
+/// of a solution say warm = true; without options, where that is the pressure of a solution, also one that was carried
+/// across a rebuild.
+/// \tparam Cores  runs the loop over the throats that asks the law
 /// \par Thread safety  one thread at a time; the network must outlive it
-template <conductance_law Law, network_solver Solver>
+template <conductance_law Law, network_solver Solver, executor Cores = serial>
 class saturated_flow {
  public:
   /// \throw parameter_error  conditions that contradict each other or do not fit the network
   /// \throw network_error    a throat that the law refuses (see refused_throats)
-  saturated_flow(const network& net, Law law, Solver solver, flow_options options = {})
-      : net_(&net), law_(std::move(law)), solver_(std::move(solver)), options_(std::move(options)) {
+  saturated_flow(const network& net, Law law, Solver solver, flow_options options = {}, Cores cores = {})
+      : net_(&net),
+        law_(std::move(law)),
+        solver_(std::move(solver)),
+        options_(std::move(options)),
+        cores_(std::move(cores)) {
     flow_nodes nodes(net, options_.nodes);
-    conductances_ = tetrapore::conductances(net, nodes, law_, options_.refused);
+    conductances_ = tetrapore::conductances(net, nodes, law_, options_.refused, cores_);
     system_ = flow_system(net, std::move(nodes), options_.conditions, options_.fluid);
     pressure_ = pressure_field(net);
     driving_ = pressure_field(net);
-    pressure_epoch_ = net.epoch();
     solver_.analyze(system_.graph());
   }
+  /// A network that nobody keeps.
+  saturated_flow(const network&&, Law, Solver, flow_options = {}, Cores = {}) = delete;
 
   /// To be called when the network has followed its grains or was rebuilt. After a rebuild the pressure starts from 0
   /// unless it was carried.
   /// \throw as the constructor; parameter_error where conditions name single pores, which a rebuild has renumbered
   void update() {
-    if (net_->epoch() != pressure_epoch_ && !system_.conditions().pores.empty()) {
-      throw parameter_error("conditions of single pores", "pores of epoch " + std::to_string(pressure_epoch_),
+    if (net_->epoch() != system_.epoch() && !system_.conditions().pores.empty()) {
+      throw parameter_error("conditions of single pores", "pores of epoch " + std::to_string(system_.epoch()),
                             "update(conditions) with those of epoch " + std::to_string(net_->epoch()));
     }
     update(system_.conditions());
@@ -76,13 +85,14 @@ class saturated_flow {
   /// The same, with other conditions.
   void update(flow_conditions conditions) {
     flow_nodes nodes(*net_, options_.nodes);
-    conductances_ = tetrapore::conductances(*net_, nodes, law_, options_.refused);
+    throat_conductances values = tetrapore::conductances(*net_, nodes, law_, options_.refused, cores_);
     if (!system_.follow(*net_, std::move(nodes), std::move(conditions))) {
       solver_.analyze(system_.graph());
     }
-    pressure_epoch_ = net_->epoch();
+    conductances_ = std::move(values);
     if (!pressure_.belongs_to(*net_)) {
       pressure_ = pressure_field(*net_);
+      near_ = false;
     }
     driving_ = pressure_field(*net_);
     x_.clear();
@@ -91,21 +101,28 @@ class saturated_flow {
 
   /// \throw parameter_error  as the constructor
   void set_conditions(flow_conditions conditions) {
+    const vec3<double> gradient = system_.conditions().mean_gradient;
     if (!system_.set_conditions(*net_, std::move(conditions))) {
       solver_.analyze(system_.graph());
       factorized_ = false;
     }
-    near_ = false;
+    near_ = near_ && system_.conditions().mean_gradient == gradient;  // the pressure contains the gradient
     x_.clear();
   }
 
   /// Conductances of the caller's own, until the next update: one per throat, at least 0 [m³/(Pa s)]. Those on the
   /// boundary and inside nodes play no part.
-  /// \throw parameter_error  another number of them
+  /// \throw parameter_error  another number of them, or one that is negative or not finite; names the throat
   void set_conductances(std::vector<double> values) {
     if (values.size() != net_->throat_count()) {
       throw parameter_error("conductances", std::to_string(values.size()),
                             std::to_string(net_->throat_count()) + ", one per throat");
+    }
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (!is_conductance(values[i]) && joins_nodes(throat_id(i))) {
+        throw parameter_error("throat " + std::to_string(i), "a conductance of " + short_number(values[i]),
+                              "a finite number of at least 0");
+      }
     }
     conductances_ = {std::move(values), {}};
     x_.clear();
@@ -115,22 +132,22 @@ class saturated_flow {
   /// The steady flow that balances the volume rates.
   /// \throw network_error  naming the cluster of pores that nothing ties to a level and whose sources do not sum to
   ///                       zero, or the pore or throat with a number that is not finite. The pressure is unchanged then
-  solve_report solve(const volume_rates& rates = {}, solve_options how = {.warm = true}) {
-    return advance(0.0, rates, how);
-  }
+  solve_report solve(const volume_rates& rates = {}) { return solve(rates, {.warm = near_}); }
+  solve_report solve(const volume_rates& rates, const solve_options& how) { return advance(0.0, rates, how); }
 
   /// One implicit step of a compressible fluid, from the present pressure; of an incompressible fluid the same as
   /// `solve`.
   /// \param dt  [s]
   /// \throw parameter_error  a step that is not above 0; else as `solve`
-  solve_report step(double dt, const volume_rates& rates = {}, solve_options how = {.warm = true}) {
+  solve_report step(double dt, const volume_rates& rates = {}) { return step(dt, rates, {.warm = near_}); }
+  solve_report step(double dt, const volume_rates& rates, const solve_options& how) {
     if (!(dt > 0) || !std::isfinite(dt)) {
-      throw parameter_error("time step", std::to_string(dt), "a finite number above 0");
+      throw parameter_error("time step", short_number(dt), "a finite number above 0");
     }
     return advance(system_.compressible() ? 1.0 / dt : 0.0, rates, how);
   }
 
-  /// Pressure per pore [Pa]; may be set before a step, and carried across a rebuild.
+  /// Pressure per pore [Pa]; may be set before a step or as a guess, and carried across a rebuild.
   [[nodiscard]] const pressure_field& pressure() const noexcept { return pressure_; }
   [[nodiscard]] pressure_field& pressure() noexcept { return pressure_; }
   /// The pressure less that of the fluid at rest [Pa]: what drives the flow. Of the last solution.
@@ -166,17 +183,27 @@ class saturated_flow {
     return net_->is_boundary(t) ? 0.0 : system_.drop(*net_, x_, t);
   }
   /// Largest over smallest conductance of the throats that are open.
-  [[nodiscard]] double contrast() const noexcept {
+  /// \throw parameter_error  there is none
+  [[nodiscard]] double contrast() const {
     double largest = 0;
     double smallest = infinity<double>;
-    for (const double k : conductances_.values) {
-      largest = std::max(largest, k);
-      smallest = k > 0 ? std::min(smallest, k) : smallest;
+    for (std::size_t i = 0; i < conductances_.values.size(); ++i) {
+      if (const double k = conductances_.values[i]; k > 0 && joins_nodes(throat_id(i))) {
+        largest = std::max(largest, k);
+        smallest = std::min(smallest, k);
+      }
     }
-    return largest > 0 ? largest / smallest : 1.0;
+    if (!(largest > 0)) {
+      throw parameter_error("contrast", "no open throat between two nodes", "at least one");
+    }
+    return largest / smallest;
   }
 
  private:
+  [[nodiscard]] bool joins_nodes(throat_id t) const noexcept {
+    return !net_->is_boundary(t) && !system_.nodes().inside(*net_, t);
+  }
+
   void expect_solution() const {
     if (x_.empty() && net_->pore_count() > 0) {
       throw parameter_error("flow", "no solution", "solve or step first");
@@ -188,12 +215,16 @@ class saturated_flow {
       throw parameter_error("volume rates", std::to_string(rates.values.size()),
                             std::to_string(net_->pore_count()) + ", one per pore");
     }
-    TETRAPORE_EXPECTS(pressure_.belongs_to(*net_), "update() follows a rebuild");
+    TETRAPORE_EXPECTS(system_.epoch() == net_->epoch() && pressure_.belongs_to(*net_), "update() follows a rebuild");
     const std::vector<double>& k = conductances_.values;
     if (!factorized_ || per_time != per_time_) {
+      factorized_ = false;
       const std::vector<double> w = system_.edge_weights(k);
       report_ = solver_.factorize(w, system_.excess(k, per_time));
       expect_answer(report_);
+      if (!report_.ok()) {
+        return report_;  // there is no factor: the pressure stays
+      }
       factorized_ = true;
       per_time_ = per_time;
     }
@@ -204,17 +235,16 @@ class saturated_flow {
       inflow[n] += stored[n];
     }
     const flow_system::right_hand_side right = system_.sources(*net_, k, inflow);
-    how.warm = how.warm && near_;
     std::vector<double> x =
         how.warm ? system_.start_from(*net_, pressure_.values()) : std::vector<double>(system_.unknowns(), 0.0);
     how.balance_floor += right.rounding + rates.rounding;
     const solve_report report = solver_.solve(right.b, x, how);
     expect_answer(report);
     report_ = report;
-    near_ = report.ok();
     if (report.kind() == verdict::failed && report.reason != solve_status::not_converged) {
       return report_;  // there is no x: the pressure stays
     }
+    near_ = report.ok();
     x_ = system_.with_held(x);
     if (per_time > 0) {
       system_.take_up(x_, per_time, inflow);
@@ -236,8 +266,8 @@ class saturated_flow {
         throw network_error("throat " + std::to_string(system_.throat_of(r.index).index()), describe(r.reason),
                             "a finite conductance of at least 0");
       case solve_status::unbalanced_cluster:
-        throw network_error("a cluster of " + std::to_string(r.cluster_size) + " pores: " + cluster_of(r.index),
-                            "sources with the sum " + std::to_string(r.imbalance) + " m³/s",
+        throw network_error("a cluster of " + std::to_string(r.cluster_size) + " nodes, at pores " + cluster_of(r.index),
+                            "sources with the sum " + short_number(r.imbalance) + " m³/s",
                             "a pressure held in it, a compressible fluid, or sources that sum to zero");
       case solve_status::invalid_excess:
       case solve_status::invalid_source:
@@ -248,7 +278,7 @@ class saturated_flow {
     }
   }
 
-  /// The first pores of the cluster of an unknown.
+  /// A pore of each of the first nodes in the cluster of an unknown.
   [[nodiscard]] std::string cluster_of(std::size_t unknown) const {
     constexpr std::size_t most = 8;
     const network_graph& g = system_.graph();
@@ -277,6 +307,7 @@ class saturated_flow {
   Law law_;
   Solver solver_;
   flow_options options_;
+  [[no_unique_address]] Cores cores_;
   throat_conductances conductances_;
   flow_system system_;
   pressure_field pressure_;
@@ -285,9 +316,8 @@ class saturated_flow {
   std::vector<double> inflow_;  ///< per node: what it gave to its throats, if it is no held one [m³/s]
   solve_report report_;
   double per_time_ = 0;
-  std::uint64_t pressure_epoch_ = 0;
   bool factorized_ = false;
-  bool near_ = false;  ///< the pressure is a guess of the next one
+  bool near_ = false;  ///< the pressure is that of a solution
 };
 
 }  // namespace tetrapore::inline TETRAPORE_ABI

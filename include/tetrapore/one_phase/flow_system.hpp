@@ -33,10 +33,7 @@ class flow_system {
 
   /// \throw parameter_error  conditions that contradict each other or do not fit the network
   flow_system(const network& net, flow_nodes nodes, flow_conditions conditions, pore_fluid fluid)
-      : nodes_(std::move(nodes)), conditions_(std::move(conditions)), fluid_(fluid) {
-    detail::check(net, conditions_, fluid_);
-    locate(net);
-    hold(net);
+      : flow_system(unnumbered{}, net, std::move(nodes), std::move(conditions), fluid) {
     number(net);
   }
 
@@ -55,22 +52,26 @@ class flow_system {
     return same;
   }
 
-  /// The network has followed its grains, or is a new one. True when the graph has stayed.
-  /// \throw parameter_error  as the constructor
+  /// The network has followed its grains, or is a new one: of another epoch. True when the graph has stayed.
+  /// \throw parameter_error  as the constructor; nothing has changed then
   bool follow(const network& net, flow_nodes nodes, flow_conditions conditions) {
-    detail::check(net, conditions, fluid_);
-    conditions_ = std::move(conditions);
-    const bool same_groups = nodes.same_groups(nodes_);
-    const std::vector<std::uint8_t> before = std::move(label_);
-    nodes_ = std::move(nodes);
-    locate(net);
-    hold(net);
-    const bool same = same_groups && free_set_is(before);
-    if (!same) {
-      number(net);
+    flow_system next(unnumbered{}, net, std::move(nodes), std::move(conditions), fluid_);
+    const bool same = next.epoch_ == epoch_ && next.nodes_.same_groups(nodes_) && next.free_set_is(label_);
+    if (same) {
+      next.unknown_of_ = std::move(unknown_of_);
+      next.unknown_node_ = std::move(unknown_node_);
+      next.edge_throat_ = std::move(edge_throat_);
+      next.held_links_ = std::move(held_links_);
+      next.graph_ = graph_;
+    } else {
+      next.number(net);
     }
+    *this = std::move(next);
     return same;
   }
+
+  /// Of the network that the system was made of, or followed last.
+  [[nodiscard]] std::uint64_t epoch() const noexcept { return epoch_; }
 
   [[nodiscard]] const flow_nodes& nodes() const noexcept { return nodes_; }
   [[nodiscard]] const flow_conditions& conditions() const noexcept { return conditions_; }
@@ -150,24 +151,29 @@ class flow_system {
     }
     const bool tilted = conditions_.mean_gradient != vec3<double>{};
     double pushed = 0;
-    std::vector<double> size(tilted ? unknowns() : 0, 0.0);  // of the terms of each source
+    for (const held_link& l : held_links_) {
+      out.b[l.unknown] += throat_weights[l.throat.index()] * x_held_[l.held];
+    }
     if (tilted) {
+      std::vector<double> sum(unknowns(), 0.0);
+      std::vector<double> size(unknowns(), 0.0);  // of the terms of each sum
+      const auto push = [&](std::uint32_t i, double q) {
+        sum[i] += q;
+        size[i] += std::abs(q);
+      };
       for (std::size_t e = 0; e < edge_throat_.size(); ++e) {
         const double q = throat_weights[edge_throat_[e].index()] * tilt(net, edge_throat_[e]);
-        out.b[graph_.edges()[e][0]] += q;
-        out.b[graph_.edges()[e][1]] -= q;
-        size[graph_.edges()[e][0]] += std::abs(q);
-        size[graph_.edges()[e][1]] += std::abs(q);
+        push(graph_.edges()[e][0], q);
+        push(graph_.edges()[e][1], -q);
         pushed += std::abs(q);
       }
-    }
-    for (const held_link& l : held_links_) {
-      const double w = throat_weights[l.throat.index()];
-      const double q = tilted ? w * tilt(net, l.throat) : 0.0;
-      out.b[l.unknown] += w * x_held_[l.held] + (l.unknown_first ? q : -q);
-    }
-    for (std::size_t i = 0; i < size.size(); ++i) {  // of a lattice, a mean gradient leaves nothing but rounding
-      out.b[i] = std::abs(out.b[i]) > 16 * epsilon<double> * size[i] ? out.b[i] : 0.0;
+      for (const held_link& l : held_links_) {
+        const double q = throat_weights[l.throat.index()] * tilt(net, l.throat);
+        push(l.unknown, l.unknown_first ? q : -q);
+      }
+      for (std::size_t i = 0; i < sum.size(); ++i) {  // in a lattice, a mean gradient leaves nothing but rounding
+        out.b[i] += std::abs(sum[i]) > 16 * epsilon<double> * size[i] ? sum[i] : 0.0;
+      }
     }
     out.rounding = 16 * epsilon<double> * pushed;
     return out;
@@ -222,6 +228,14 @@ class flow_system {
   }
 
  private:
+  struct unnumbered {};
+  flow_system(unnumbered, const network& net, flow_nodes nodes, flow_conditions conditions, const pore_fluid& fluid)
+      : nodes_(std::move(nodes)), conditions_(std::move(conditions)), fluid_(fluid), epoch_(net.epoch()) {
+    detail::check(net, conditions_, fluid_);
+    locate(net);
+    hold(net);
+  }
+
   enum : std::uint8_t { held_pore = 6, free_node = 7 };  ///< labels of nodes; 0 to 5 are faces that hold them
   static constexpr std::uint32_t no_unknown = 0xffffffffU;
 
@@ -275,12 +289,13 @@ class flow_system {
     label_.assign(nodes_.size(), free_node);
     x_held_.assign(nodes_.size(), 0.0);
     imposed_.assign(nodes_.size(), 0.0);
-    std::vector<bool> own(conditions_.pores.empty() ? 0 : net.pore_count(), false);
+    std::vector<bool> own(conditions_.pores.empty() ? 0 : nodes_.size(), false);
+    const auto has_own = [&](pore_id p) { return !own.empty() && own[nodes_[p]]; };
     const auto hold_node = [&](pore_id p, double value, std::uint8_t label) {
       const std::size_t n = nodes_[p];
       if (label_[n] != free_node && x_held_[n] != value) {
         throw parameter_error("pore " + std::to_string(p.index()),
-                              "pressures " + std::to_string(x_held_[n]) + " and " + std::to_string(value),
+                              "pressures " + short_number(x_held_[n]) + " and " + short_number(value),
                               "one pressure, or a condition of its own");
       }
       if (label_[n] == free_node) {
@@ -289,7 +304,7 @@ class flow_system {
       }
     };
     for (const pore_condition& c : conditions_.pores) {
-      own[c.pore.index()] = true;
+      own[nodes_[c.pore]] = true;
       if (c.condition.kind == kind::pressure) {
         const vec3<double> slope = fluid_.hydrostatic_gradient() + conditions_.mean_gradient;
         hold_node(c.pore, c.condition.value - dot(slope, place(net, c.pore)), held_pore);
@@ -310,17 +325,24 @@ class flow_system {
           continue;
         }
         touched = true;
+        if (has_own(p)) {
+          continue;
+        }
         if (conditions_.at(f).kind == kind::flux) {
           const double a = covered_area(net, p, f);
           shares.emplace_back(nodes_[p], a);
           area += a;
-        } else if (own.empty() || !own[i]) {
+        } else {
           hold_on_face(net, p, f, hold_node);
         }
       }
       if (!touched) {
         throw parameter_error(std::string("condition at ") + describe(f), "a face that no pore touches",
                               "a face of the network");
+      }
+      if (conditions_.at(f).kind == kind::flux && !(area > 0)) {
+        throw parameter_error(std::string("condition at ") + describe(f), "a flux without pores that could take it",
+                              "pores at the face that have no condition of their own");
       }
       for (const auto& [node, a] : shares) {
         imposed_[node] += conditions_.at(f).value * (a / area);
@@ -447,6 +469,7 @@ class flow_system {
   flow_nodes nodes_;
   flow_conditions conditions_;
   pore_fluid fluid_;
+  std::uint64_t epoch_ = 0;
   vec3<double> origin_;
   double level_ = 0;
   double void_rounding_ = 0;

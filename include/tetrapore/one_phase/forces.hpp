@@ -232,15 +232,15 @@ template <conductance_law Law>
 }
 
 /// Forces of the last solution, shared as the caller asks.
-template <class Law, class Solver, load_sharing Sharing>
-[[nodiscard]] fluid_forces forces_on_grains(const saturated_flow<Law, Solver>& flow, const Sharing& sharing,
+template <class Law, class Solver, class Cores, load_sharing Sharing>
+[[nodiscard]] fluid_forces forces_on_grains(const saturated_flow<Law, Solver, Cores>& flow, const Sharing& sharing,
                                             bool with_stress = false) {
   return forces_of_pressure(flow.net(), flow.system().nodes(), flow.driving_pressure(),
                             flow.system().conditions().mean_gradient, sharing, with_stress);
 }
 /// Forces of the last solution, shared as the law treats the walls.
-template <class Law, class Solver>
-[[nodiscard]] fluid_forces forces_on_grains(const saturated_flow<Law, Solver>& flow) {
+template <class Law, class Solver, class Cores>
+[[nodiscard]] fluid_forces forces_on_grains(const saturated_flow<Law, Solver, Cores>& flow) {
   return forces_on_grains(flow, sharing_of(flow.law()));
 }
 

@@ -7,8 +7,13 @@
 
 #include "support/small_networks.hpp"
 
+#include <algorithm>
+#include <atomic>
+#include <concepts>
 #include <cmath>
+#include <memory>
 #include <numeric>
+#include <type_traits>
 
 using namespace tetrapore;
 
@@ -41,6 +46,44 @@ using flow_type = saturated_flow<even_law, ldlt_solver<>>;
 flow_type make(const network& net, const flow_options& options, const even_law& law = {}) {
   return flow_type(net, law, ldlt_solver<>{}, options);
 }
+
+/// A solver that tells how it was called, and fails when it is told to.
+struct watched_solver {
+  struct record {
+    bool warm = false;
+    std::vector<double> start;
+    solve_status factor = solve_status::ok;
+    std::size_t solutions = 0;
+  };
+  ldlt_solver<> inner;
+  std::shared_ptr<record> seen = std::make_shared<record>();
+
+  void analyze(const network_graph& g) { inner.analyze(g); }
+  [[nodiscard]] solve_report factorize(std::span<const double> w, std::span<const double> s) {
+    solve_report r = inner.factorize(w, s);
+    r.reason = r.ok() ? seen->factor : r.reason;
+    return r;
+  }
+  [[nodiscard]] solve_report solve(std::span<const double> b, std::span<double> x, const solve_options& how = {}) {
+    seen->warm = how.warm;
+    seen->start.assign(x.begin(), x.end());
+    ++seen->solutions;
+    return inner.solve(b, x, how);
+  }
+};
+static_assert(network_solver<watched_solver>);
+
+/// Runs in blocks of one, and counts them.
+struct counting_cores {
+  std::shared_ptr<std::atomic<std::size_t>> blocks_run = std::make_shared<std::atomic<std::size_t>>(0);
+  template <std::invocable<std::size_t, std::size_t> F>
+  void blocks(std::size_t n, F&& f) const {
+    for (std::size_t i = 0; i < n; ++i) {
+      f(i, i + 1);
+      ++*blocks_run;
+    }
+  }
+};
 
 double sum(std::span<const double> v) { return std::accumulate(v.begin(), v.end(), 0.0); }
 
@@ -122,7 +165,7 @@ TEST_CASE("a closed box that loses volume is refused by the names of its pores, 
   auto flow = make(net, {});
   CHECK(flow.solve().ok());
   const std::vector<double> before(flow.pressure().values().begin(), flow.pressure().values().end());
-  CHECK_THROWS_WITH_AS((void)flow.solve(piston(net, 0.01)), doctest::Contains("a cluster of 12 pores: 0, "),
+  CHECK_THROWS_WITH_AS((void)flow.solve(piston(net, 0.01)), doctest::Contains("a cluster of 12 nodes, at pores 0, "),
                        network_error);
   CHECK(std::equal(before.begin(), before.end(), flow.pressure().values().begin()));
   CHECK(flow.report().floating_clusters == 1);
@@ -146,7 +189,7 @@ TEST_CASE("a sealed pore has the pressure of nobody, and is named when it is squ
   volume_rates squeeze;
   squeeze.values.assign(net.pore_count(), 0.0);
   squeeze.values[1] = -1;
-  CHECK_THROWS_WITH_AS((void)flow.solve(squeeze), doctest::Contains("a cluster of 1 pores: 1: found sources"),
+  CHECK_THROWS_WITH_AS((void)flow.solve(squeeze), doctest::Contains("a cluster of 1 nodes, at pores 1: found sources with the sum 1 m³/s"),
                        network_error);
 }
 
@@ -294,4 +337,204 @@ TEST_CASE("conditions of single pores are asked for again after a rebuild") {
   for (const double p : flow.pressure().values()) {
     CHECK(p == 2);
   }
+}
+
+TEST_CASE("a flow does not keep a network that nobody keeps") {
+  static_assert(std::is_constructible_v<flow_type, const network&, even_law, ldlt_solver<>, flow_options>);
+  static_assert(std::is_constructible_v<flow_type, network&, even_law, ldlt_solver<>>);
+  static_assert(!std::is_constructible_v<flow_type, network, even_law, ldlt_solver<>, flow_options>);
+  static_assert(!std::is_constructible_v<flow_type, const network, even_law, ldlt_solver<>>);
+}
+
+TEST_CASE("a solver that has no factor is not asked for a solution, and its reason is told") {
+  const network net = box_of_two();
+  flow_options o;
+  o.conditions.at(face::z_max) = held_pressure(1);
+  for (const auto why : {solve_status::factorization_failed, solve_status::out_of_range}) {
+    saturated_flow flow(net, even_law{}, watched_solver{}, o);
+    const auto seen = flow.solver().seen;
+    seen->factor = why;
+    for (int n = 0; n < 2; ++n) {  // the second does not take the factor for granted
+      CHECK(flow.solve().reason == why);
+      CHECK(flow.report().reason == why);
+      CHECK(seen->solutions == 0);
+      CHECK_THROWS_AS((void)flow.flux(face::z_max), parameter_error);
+      CHECK(flow.pressure()[pore_id(0)] == 0);
+    }
+    seen->factor = solve_status::ok;
+    CHECK(flow.solve().ok());
+    CHECK(flow.pressure()[pore_id(0)] == 1);
+  }
+}
+
+TEST_CASE("a solution starts from the last one, from a guess of the caller's, or from nothing, as the options say") {
+  const network net = box_of_two();
+  flow_options o;
+  o.conditions.at(face::z_min) = held_pressure(1);
+  o.conditions.at(face::z_max) = held_pressure(0);
+  saturated_flow flow(net, even_law{}, watched_solver{}, o);
+  const auto seen = flow.solver().seen;
+  CHECK(flow.solve().ok());
+  CHECK(!seen->warm);  // nothing is known yet
+  const auto start = [&](const flow_conditions& c) {  // what the present pressure is worth, less the mean held one
+    const double level = 0.5 * (c.at(face::z_min).value + c.at(face::z_max).value);
+    std::vector<double> x;
+    for (std::size_t i = 0; i < flow.system().unknowns(); ++i) {
+      x.push_back(flow.pressure()[flow.system().pore_of(i)] - level);
+    }
+    return x;
+  };
+  flow_conditions c = o.conditions;
+  c.at(face::z_min) = held_pressure(1.5);
+  const std::vector<double> expected = start(c);
+  flow.set_conditions(c);
+  CHECK(flow.solve().ok());
+  CHECK(seen->warm);
+  CHECK(seen->start == expected);
+  CHECK(flow.solve({}, {}).ok());
+  CHECK(!seen->warm);
+  // a guess before the first solution
+  saturated_flow fresh(net, even_law{}, watched_solver{}, o);
+  const auto seen_fresh = fresh.solver().seen;
+  fresh.pressure() = flow.pressure();
+  const std::vector<double> guess = start(o.conditions);
+  CHECK(fresh.solve({}, {.warm = true}).ok());
+  CHECK(seen_fresh->warm);
+  CHECK(seen_fresh->start == guess);
+}
+
+TEST_CASE("a pressure that was carried across a rebuild is the start of the next solution, one that was not is none") {
+  for (const bool carried : {false, true}) {
+    network net = box_of_two();
+    flow_options o;
+    o.conditions.at(face::z_min) = held_pressure(1);
+    o.conditions.at(face::z_max) = held_pressure(0);
+    saturated_flow flow(net, even_law{}, watched_solver{}, o);
+    const auto seen = flow.solver().seen;
+    CHECK(flow.solve().ok());
+    net = network(net.arrays(), net.epoch() + 1);
+    if (carried) {
+      const auto p = flow.pressure().values();
+      flow.pressure() = pressure_field(std::vector<double>(p.begin(), p.end()), net.epoch());
+    }
+    flow.update();
+    CHECK(flow.solve().ok());
+    CHECK(seen->warm == carried);
+  }
+}
+
+TEST_CASE("what enters through a face goes past the pores that have a condition of their own") {
+  const network net = box_of_two();
+  flow_options o;
+  o.conditions.at(face::z_min) = imposed_flux(2.0);
+  o.conditions.at(face::z_max) = held_pressure(0);
+  pore_id own;
+  double area = 0;
+  for (std::size_t i = 0; i < net.pore_count(); ++i) {
+    const pore_id p(i);
+    if (!own.valid() && net.touches(p, face::z_min) && !net.touches(p, face::z_max)) {
+      own = p;
+    } else {
+      area += covered_area(net, p, face::z_min);
+    }
+  }
+  o.conditions.pores = {{own, imposed_flux(0.5)}};
+  auto flow = make(net, o);
+  CHECK(flow.solve().ok());
+  CHECK(flow.flux(face::z_max) == doctest::Approx(-2.5).epsilon(1e-13));
+  const auto entering = flow.system().inflow({});
+  CHECK(entering[flow.system().nodes()[own]] == 0.5);
+  for (std::size_t i = 0; i < net.pore_count(); ++i) {
+    const pore_id p(i);
+    if (p != own && net.touches(p, face::z_min)) {
+      CHECK(entering[flow.system().nodes()[p]] == doctest::Approx(2.0 * covered_area(net, p, face::z_min) / area));
+    }
+  }
+  for (std::size_t i = 0; i < net.pore_count(); ++i) {
+    if (net.touches(pore_id(i), face::z_min)) {
+      o.conditions.pores.push_back({pore_id(i), no_flow()});
+    }
+  }
+  CHECK_THROWS_WITH_AS((void)make(net, o), doctest::Contains("condition at z_min: found a flux without pores"),
+                       parameter_error);
+}
+
+TEST_CASE("a conductance that cannot be one is refused by its throat, also beside a held pore") {
+  const network net = box_of_two();
+  flow_options o;
+  o.conditions.at(face::z_max) = held_pressure(1);
+  auto flow = make(net, o);
+  const std::vector<double> good(net.throat_count(), 1.0);
+  for (std::size_t i = 0; i < net.throat_count(); ++i) {
+    for (const double bad : {-0.5, quiet_nan<double>, infinity<double>}) {
+      std::vector<double> k = good;
+      k[i] = bad;
+      if (net.is_boundary(throat_id(i))) {
+        CHECK_NOTHROW(flow.set_conductances(k));
+        continue;
+      }
+      CHECK_THROWS_WITH_AS(flow.set_conductances(k), doctest::Contains(("throat " + std::to_string(i) + ":").c_str()),
+                           parameter_error);
+    }
+  }
+  for (const double bad : {-1e-14, quiet_nan<double>, infinity<double>}) {
+    for (const auto refused : {refused_throats::error, refused_throats::closed}) {
+      o.refused = refused;
+      CHECK_THROWS_WITH_AS((void)make(net, o, {bad}), doctest::Contains("from the law"), network_error);
+    }
+  }
+}
+
+TEST_CASE("the permeability of a box is that of the pressure which drives the flow") {
+  const network net = box_of_two();
+  flow_options o;
+  o.conditions.at(face::z_min) = held_pressure(5);
+  o.conditions.at(face::z_max) = held_pressure(1);
+  auto light = make(net, o);
+  CHECK(light.solve().ok());
+  const double k = box_permeability(light, face::z_min, face::z_max, 2.0);
+  o.fluid = {.density = 3, .gravity = {0, 0, -0.5}};
+  auto heavy = make(net, o);
+  CHECK(heavy.solve().ok());
+  CHECK(box_permeability(heavy, face::z_min, face::z_max, 2.0) == doctest::Approx(k).epsilon(1e-13));
+  CHECK(box_permeability(heavy, face::z_max, face::z_min, 2.0) == doctest::Approx(k).epsilon(1e-13));
+  o.fluid.gravity = {0, 0.5, -0.5};
+  auto aslant = make(net, o);
+  CHECK(aslant.solve().ok());
+  CHECK_THROWS_WITH_AS((void)box_permeability(aslant, face::z_min, face::z_max, 2.0), doctest::Contains("gravity"),
+                       parameter_error);
+}
+
+TEST_CASE("numbers in messages keep their digits in any unit") {
+  CHECK(short_number(1.25e-9) == "1.25e-09");
+  CHECK(short_number(-3) == "-3");
+  const network net = box_of_two();
+  flow_options o;
+  o.conditions.at(face::z_max) = held_pressure(2.5e-9);
+  o.conditions.at(face::x_min) = held_pressure(0);
+  CHECK_THROWS_WITH_AS((void)make(net, o), doctest::Contains("2.5e-09"), parameter_error);
+}
+
+TEST_CASE("the contrast is that of open throats between nodes, and there is none without them") {
+  const network net = box_of_two();
+  auto flow = make(net, {});
+  std::vector<double> k(net.throat_count(), 2.0);
+  for (std::size_t i = 0; i < k.size(); ++i) {
+    k[i] = net.is_boundary(throat_id(i)) ? 1e9 : 2.0;
+  }
+  k[static_cast<std::size_t>(std::find(k.begin(), k.end(), 2.0) - k.begin())] = 0.5;
+  flow.set_conductances(k);
+  CHECK(flow.contrast() == 4);
+  flow.set_conductances(std::vector<double>(net.throat_count(), 0.0));
+  CHECK_THROWS_WITH_AS((void)flow.contrast(), doctest::Contains("no open throat"), parameter_error);
+}
+
+TEST_CASE("the law is asked on the cores of the caller") {
+  const network net = box_of_two();
+  const counting_cores cores;
+  saturated_flow flow(net, even_law{}, ldlt_solver<>{}, flow_options{}, cores);
+  CHECK(*cores.blocks_run == net.throat_count());
+  flow.update();
+  CHECK(*cores.blocks_run == 2 * net.throat_count());
+  CHECK(flow.conductances().values == make(net, {}).conductances().values);
 }
