@@ -60,7 +60,7 @@ void for_terms(double time, const F& f) {
 }  // namespace terzaghi
 
 struct oedometer_options {
-  std::size_t grains = 1200;
+  std::size_t grains = 800;
   double radius = 1e-3;       ///< mean [m]
   double spread = 0.15;       ///< radii lie within (1 ± spread) × radius
   double slenderness = 5;     ///< height over width, before the first load

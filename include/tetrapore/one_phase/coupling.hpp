@@ -47,7 +47,7 @@ struct coupling_options {
   /// Steps between two computations of the conductances and of the shares in which facets load grains. Volume rates and
   /// areas are always those of the present positions.
   std::size_t refresh_every = 1;
-  solve_options solve{.warm = true};
+  solve_options solve{.warm = true};  ///< a warm start is taken from the second step on
 };
 
 /// How the box moves: where its faces are now, and the velocity of walls and periodic vectors.
@@ -202,9 +202,8 @@ class coupled_flow {
   coupled_flow(network net, Law law, Solver solver, flow_options flow, coupling_options options, Sharing sharing)
       : net_(std::move(net)),
         options_(options),
-        flow_options_(std::move(flow)),
         sharing_(std::move(sharing)),
-        flow_(net_, std::move(law), std::move(solver), flow_options_) {
+        flow_(net_, std::move(law), std::move(solver), std::move(flow)) {
     if (options_.scheme == pressure_scheme::explicit_step && !flow_.system().compressible()) {
       throw parameter_error("pressure scheme", "an explicit step of an incompressible fluid", "an implicit step");
     }
@@ -263,7 +262,9 @@ class coupled_flow {
     }
     old_.assign(flow_.pressure().values().begin(), flow_.pressure().values().end());
     if (options_.scheme == pressure_scheme::implicit_step) {
-      report.solve = flow_.step(dt, rates, options_.solve);
+      solve_options how = options_.solve;
+      how.warm = how.warm && steps_ > 0;
+      report.solve = flow_.step(dt, rates, how);
       report.reason = report.solve.ok() ? coupling_status::ok : coupling_status::not_solved;
     } else if (dt <= largest_explicit_step()) {
       report.solve.reason = solve_status::ok;
@@ -293,11 +294,9 @@ class coupled_flow {
     take(grains, bounds);
     const std::vector<sphere<double>> here(net_.grains().begin(), net_.grains().end());
     transfer way = tetrapore::rebuild(net_, engine, here);
-    pressure_field pressure = flow_.pressure();
-    carry(way, pressure);
+    carry(way, flow_.pressure());
     carry(way, unbalanced_);
-    flow_ = saturated_flow<Law, Solver>(net_, flow_.law(), std::move(flow_.solver()), flow_options_);
-    flow_.pressure() = std::move(pressure);
+    flow_.update();
     gather();
     remember();
     steps_since_refresh_ = 0;
@@ -378,8 +377,8 @@ class coupled_flow {
     return out;
   }
 
-  /// Bound on the step of the explicit pressure scheme [s]: the least V_void / (K_f Σ w) of a node; infinite without
-  /// compressibility has no meaning and is 0.
+  /// Bound on the step of the explicit pressure scheme [s]: the least V_void / (K_f Σ w) of a node; 0 without
+  /// compressibility.
   [[nodiscard]] double largest_explicit_step() const noexcept { return largest_explicit_; }
 
   [[nodiscard]] const network& net() const noexcept { return net_; }
@@ -387,8 +386,7 @@ class coupled_flow {
   [[nodiscard]] const pressure_field& pressure() const noexcept { return flow_.pressure(); }
   [[nodiscard]] pressure_field& pressure() noexcept { return flow_.pressure(); }
   void set_conditions(flow_conditions conditions) {
-    flow_options_.conditions = std::move(conditions);
-    flow_.set_conditions(flow_options_.conditions);
+    flow_.set_conditions(std::move(conditions));
     gather();
   }
   /// Force of the fluid on each wall in the last step, pressure and shear [N].
@@ -670,7 +668,6 @@ class coupled_flow {
 
   network net_;
   coupling_options options_;
-  flow_options flow_options_;
   Sharing sharing_;
   saturated_flow<Law, Solver> flow_;
   fluid_ledger ledger_;

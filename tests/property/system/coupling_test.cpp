@@ -303,13 +303,6 @@ TEST_CASE("to triangulate anew changes the pressure by little, and keeps what is
     const auto [lo, hi] = std::minmax_element(flow.pressure().values().begin(), flow.pressure().values().end());
     return std::array<double, 2>{*lo, *hi};
   };
-  const auto drag = [&](const std::vector<vec>& f) {
-    vec s;
-    for (const vec& x : f) {
-      s += x;
-    }
-    return s.y;
-  };
   const double kept = content();
   const auto before = extremes();
   const transfer way = flow.rebuild(compiled_triangulation{}, p.grains, *p.bounds);
@@ -323,15 +316,38 @@ TEST_CASE("to triangulate anew changes the pressure by little, and keeps what is
   CHECK(after[0] >= before[0]);
   CHECK(after[1] <= before[1]);
   CHECK(content() == doctest::Approx(kept).epsilon(1e-9));
-  // the same motion on either triangulation, after a mean strain of 1 %: drags within 2 %
-  coupled old_mesh(mesh_of(p), law, ldlt_solver<>{}, o);
-  std::vector<vec> first(p.grains.size());
-  REQUIRE(old_mesh.step(dt, p.grains, c.velocities, first, c.box).ok());
-  std::vector<vec> second(p.grains.size());
-  REQUIRE(flow.step(1e3, p.grains, c.velocities, second, c.box).ok());
-  std::vector<vec> third(p.grains.size());
-  REQUIRE(old_mesh.step(1e3, p.grains, c.velocities, third, c.box).ok());
-  CHECK(drag(second) == doctest::Approx(drag(third)).epsilon(1e-2));
+}
+
+TEST_CASE("after a mean strain of 1 %, the old triangulation and a new one give forces within 5 % of each other") {
+  packing p = grains_in_a_box();
+  coupled flow(mesh_of(p), law, ldlt_solver<>{}, drained_at(face::y_max));
+  compression c(p, 0.5);
+  const auto jitter = random_velocities(p.grains.size());
+  for (std::size_t i = 0; i < jitter.size(); ++i) {
+    c.velocities[i] += jitter[i] * 0.3;
+  }
+  std::vector<vec> before(p.grains.size());
+  for (int step = 0; flow.distortion().strain < 0.01 && step < 200; ++step) {
+    before.assign(p.grains.size(), vec{});
+    REQUIRE(flow.step(0.005, p.grains, c.velocities, before, c.box).ok());
+    move(p, c, 0.005);
+  }
+  before.assign(p.grains.size(), vec{});
+  REQUIRE(flow.step(0.005, p.grains, c.velocities, before, c.box).ok());
+  const std::size_t pores = flow.net().pore_count();
+  flow.rebuild(compiled_triangulation{}, p.grains, *p.bounds);
+  CHECK(flow.net().pore_count() != pores);  // some facets have flipped
+  std::vector<vec> after(p.grains.size());
+  REQUIRE(flow.step(0.005, p.grains, c.velocities, after, c.box).ok());
+  double change = 0;
+  double size = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    change += norm2(after[i] - before[i]);
+    size += norm2(before[i]);
+  }
+  MESSAGE("L2 change of the forces: " << std::sqrt(change / size));
+  CHECK(change > 0);
+  CHECK(std::sqrt(change / size) < 0.05);
 }
 
 TEST_CASE("rebuild_due names its reason") {
@@ -347,10 +363,6 @@ TEST_CASE("rebuild_due names its reason") {
   REQUIRE(flow.step(0.1, p.grains, at_rest, forces).ok());
   CHECK(flow.rebuild_due({.strain = 1e-3, .turned_volume = 1}) == rebuild_reason::strain);
   p.grains[7].centre.x += 4.0;
-  for (auto& g : p.grains) {
-    g.radius *= 0.2;  // the cells that turn must not be full of grains
-  }
-  CHECK(mesh_of(grains_in_a_box()).pore_count() > 0);
   coupled turned(mesh_of(grains_in_a_box()), law, ldlt_solver<>{}, drained_at(face::y_max));
   REQUIRE(turned.step(0.1, p.grains, at_rest, forces).ok());
   CHECK(turned.distortion().turned_cells > 0);
