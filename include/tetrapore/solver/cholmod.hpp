@@ -155,11 +155,11 @@ class cholmod_factorization {
     return true;
   }
 
-  /// x = A⁻¹ b for one b or for several one after the other. Where memory runs out x is NaN.
-  void apply(std::span<const double> b, std::span<double> x) {
+  /// x = A⁻¹ b for one b or for several one after the other. False where memory runs out; x is then unchanged.
+  [[nodiscard]] bool apply(std::span<const double> b, std::span<double> x) {
     const std::size_t n = triangle_.size();
     if (n == 0) {
-      return;
+      return true;
     }
     cholmod_dense rhs{};
     rhs.nrow = n;
@@ -172,11 +172,11 @@ class cholmod_factorization {
     const int done = cholmod_l_solve2(CHOLMOD_A, s_->factor.get(), &rhs, nullptr, s_->solution.address(), nullptr,
                                       s_->work.address(), s_->more_work.address(), s_->session.get());
     if (done == 0) {
-      std::fill(x.begin(), x.end(), std::numeric_limits<double>::quiet_NaN());
-      return;
+      return false;
     }
     const auto* solution = static_cast<const double*>(s_->solution->x);
     std::copy(solution, solution + b.size(), x.begin());
+    return true;
   }
 
   [[nodiscard]] std::size_t refinements() const noexcept { return settings_.refinements; }
@@ -353,7 +353,8 @@ class cholmod_solver : public direct_solver<cholmod_factorization> {
   explicit cholmod_solver(const cholmod_settings& settings) : direct_solver(cholmod_factorization(settings)) {}
 
   /// Solves for several right-hand sides at once: b and x hold one system after the other. A report for each; a system
-  /// that is refused leaves its part of x as it was.
+  /// that is refused leaves its part of x as it was. One report alone where nothing could be solved: no factor, arrays
+  /// that do not fit, no memory.
   [[nodiscard]] std::vector<solve_report> solve_many(std::span<const double> b, std::span<double> x,
                                                      solve_options options = {}) {
     const std::size_t n = system().size();
@@ -363,17 +364,17 @@ class cholmod_solver : public direct_solver<cholmod_factorization> {
       return {report};
     }
     block_.resize(b.size());
-    factor().apply(b, block_);
+    if (!factor().apply(b, block_)) {
+      solve_report report;
+      report.reason = solve_status::no_memory;
+      return {report};
+    }
     std::vector<solve_report> reports;
     for (std::size_t begin = 0; begin < b.size(); begin += n) {
       const auto of = [&](auto whole) { return whole.subspan(begin, n); };
       const std::span<double> start = of(std::span<double>(block_));
-      options.warm = true;
-      reports.push_back(solve(of(b), start, options));
-      if (reports.back().reason == solve_status::invalid_start) {
-        options.warm = false;  // the solution has overflowed; the report says so
-        reports.back() = solve(of(b), start, options);
-      }
+      options.warm = false;  // what has overflowed is no invalid start, but out of range
+      reports.push_back(refined(of(b), start, options, origin::factor));
       if (reports.back().kind() != verdict::refused) {
         std::copy(start.begin(), start.end(), of(x).begin());
       }

@@ -37,7 +37,8 @@ namespace tetrapore::inline TETRAPORE_ABI {
 
 namespace detail {
 
-/// Σ_j w_ij (x_i − x_j) + s_i x_i as an operator of Eigen: a sum of fluxes, without a diagonal.
+/// D^-½ A D^-½ as an operator of Eigen, A x = Σ_j w_ij (x_i − x_j) + s_i x_i by a sum of fluxes, D the diagonal of A:
+/// with it Eigen's ‖r‖ is the norm in which a sealed pore counts as much as a wide one.
 class flux_operator : public Eigen::EigenBase<flux_operator> {
  public:
   using Scalar = double;
@@ -58,8 +59,20 @@ class flux_operator : public Eigen::EigenBase<flux_operator> {
     for (std::size_t k = 0; k < edges.size(); ++k) {
       weights_[k] = weights[edges[k]];
     }
+    const auto offsets = graph.offsets();
+    root_.resize(rows());
+    for (Eigen::Index i = 0; i < rows(); ++i) {
+      const auto row = static_cast<std::size_t>(i);
+      root_[i] = excess[row];
+      for (std::uint32_t k = offsets[row]; k < offsets[row + 1]; ++k) {
+        root_[i] += weights_[k];
+      }
+      root_[i] = std::sqrt(root_[i]);
+    }
   }
 
+  /// D^½, above 0 everywhere.
+  [[nodiscard]] const Eigen::VectorXd& root() const noexcept { return root_; }
   [[nodiscard]] Eigen::Index rows() const noexcept { return static_cast<Eigen::Index>(graph_.node_count()); }
   [[nodiscard]] Eigen::Index cols() const noexcept { return rows(); }
 
@@ -69,9 +82,10 @@ class flux_operator : public Eigen::EigenBase<flux_operator> {
     return {*this, x.derived()};
   }
 
-  /// y += scale · A x
+  /// y += scale · D^-½ A D^-½ v
   template <class Destination, class Rhs>
-  void add_product(Destination& y, const Rhs& x, double scale) const {
+  void add_product(Destination& y, const Rhs& v, double scale) const {
+    const Eigen::VectorXd x = v.cwiseQuotient(root_);
     const auto offsets = graph_.offsets();
     const auto next = graph_.all_neighbours();
     for (Eigen::Index i = 0; i < rows(); ++i) {
@@ -81,7 +95,7 @@ class flux_operator : public Eigen::EigenBase<flux_operator> {
       for (std::uint32_t k = offsets[row]; k < offsets[row + 1]; ++k) {
         sum += weights_[k] * (own - x[static_cast<Eigen::Index>(next[k])]);
       }
-      y[i] += scale * sum;
+      y[i] += scale * (sum / root_[i]);
     }
   }
 
@@ -89,16 +103,26 @@ class flux_operator : public Eigen::EigenBase<flux_operator> {
   network_graph graph_;
   std::vector<double> weights_;  // of each entry of the rows
   std::vector<double> excess_;
+  Eigen::VectorXd root_;
 };
 
-/// A preconditioner that was made beforehand: the solver shall not make it from its operator.
+/// A preconditioner of A that was made beforehand, for the scaled system of a flux_operator.
 template <class Preconditioner>
 class ready_made : public Preconditioner {
  public:
-  template <class Matrix>
-  ready_made& compute(const Matrix&) {
+  ready_made& compute(const flux_operator& system) {
+    root_ = &system.root();
     return *this;
   }
+  template <class Rhs>
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::MatrixBase<Rhs>& b) const {
+    const Eigen::VectorXd scaled = b.cwiseProduct(*root_);
+    const Eigen::VectorXd x = Preconditioner::solve(scaled);
+    return x.cwiseProduct(*root_);
+  }
+
+ private:
+  const Eigen::VectorXd* root_ = nullptr;
 };
 
 /// An Eigen matrix with the pattern of a lower triangle.
@@ -178,10 +202,11 @@ class eigen_ldlt_factorization {
     ldlt_->factorize(matrix_);
     return ldlt_->info() == Eigen::Success && (ldlt_->vectorD().array() > 0).all();
   }
-  void apply(std::span<const double> b, std::span<double> x) const {
+  bool apply(std::span<const double> b, std::span<double> x) const {
     if (matrix_.rows() > 0) {
       detail::as_eigen(x) = ldlt_->solve(detail::as_eigen(b));
     }
+    return true;
   }
   /// One refinement mends what assembling the matrix has lost.
   [[nodiscard]] static constexpr std::size_t refinements() noexcept { return 1; }
@@ -305,9 +330,11 @@ class vcycle_preconditioner {
 };
 
 /// Eigen's conjugate gradients on w and s (only the preconditioner may see an assembled matrix), restarted from the
-/// true residual until the scaled residual ‖D^-½ r‖ / ‖D^-½ b‖ is below the tolerance or no longer halves.
+/// residual evaluated anew. Ends as multigrid_solver does: on the scaled residual, the backward error, and an estimate
+/// of the error of x by a V-cycle of the residual, whatever the preconditioner; or when the estimate falls no more.
 /// \tparam Preconditioner  any of Eigen's: DiagonalPreconditioner<double>, IncompleteCholesky<double>, or our V-cycle.
-///         With the first two a large system needs thousands of iterations: raise options.max_iterations
+///         With the first two a large system needs thousands of iterations: raise options.max_iterations. They do not
+///         converge at any contrast; the V-cycle made beside them for the estimate then says so
 template <class Preconditioner = vcycle_preconditioner<>>
 class eigen_cg_solver {
  public:
@@ -324,11 +351,10 @@ class eigen_cg_solver {
       return report;
     }
     const std::vector<double> grounded = system_.grounded_excess();
-    if constexpr (requires(Preconditioner& p) { p.assign(system_.graph(), system_.weights(), grounded); }) {
-      preconditioner().assign(system_.graph(), system_.weights(), grounded);
-    } else {
+    if constexpr (!own_estimate) {
       preconditioner().compute(laplacian(system_.graph(), system_.weights(), grounded));
     }
+    estimator().assign(system_.graph(), system_.weights(), grounded);
     operator_->assign(system_.graph(), system_.weights(), grounded);
     cg_->compute(*operator_);
     ready_ = preconditioner().info() == Eigen::Success;
@@ -348,37 +374,12 @@ class eigen_cg_solver {
       std::fill(x.begin(), x.end(), 0.0);
     }
     residual_.resize(x.size());
-    const double target = options.tolerance * system_.scaled_norm(system_.sources());
-    system_.residual(system_.sources(), x, residual_);
-    double reached = system_.scaled_norm(residual_);
-    report.stop = solve_stop::backward_error;
-    while (reached > target) {
-      if (report.iterations >= options.max_iterations) {
-        report.stop = solve_stop::max_iterations;
-        break;
-      }
-      // a restart has only the rest of the way to go
-      cg_->setTolerance(report.iterations == 0 ? options.tolerance
-                                               : std::clamp(0.1 * target / reached, options.tolerance, 0.1));
-      cg_->setMaxIterations(static_cast<Eigen::Index>(options.max_iterations - report.iterations));
-      const Eigen::VectorXd step = cg_->solve(detail::as_eigen(std::span<const double>(residual_)));
-      report.iterations += static_cast<std::size_t>(cg_->iterations()) + (cg_->info() == Eigen::Success ? 1U : 0U);
-      detail::as_eigen(x) += step;
-      system_.residual(system_.sources(), x, residual_);
-      const double next = system_.scaled_norm(residual_);
-      if (!(next < reached)) {
-        detail::as_eigen(x) -= step;
-      }
-      if (!(next <= 0.5 * reached)) {
-        report.stop = report.iterations >= options.max_iterations ? solve_stop::max_iterations : solve_stop::stagnated;
-        break;
-      }
-      reached = next;
+    if (system_.size() > 0) {
+      iterate(x, options, report);
+    } else {
+      report.stop = solve_stop::converged;
     }
-    system_.finish(x, report);
-    if (report.ok() && (report.stop == solve_stop::max_iterations || !(report.backward_error <= options.tolerance))) {
-      report.reason = solve_status::not_converged;
-    }
+    system_.finish(x, options, report);
     return report;
   }
 
@@ -386,15 +387,84 @@ class eigen_cg_solver {
   [[nodiscard]] Preconditioner& preconditioner() noexcept { return cg_->preconditioner(); }
 
  private:
+  static constexpr bool own_estimate =
+      requires(Preconditioner& p, const network_graph& graph, std::span<const double> in) { p.assign(graph, in, in); };
+  struct no_estimator {};
   using cg =
       Eigen::ConjugateGradient<detail::flux_operator, Eigen::Lower | Eigen::Upper, detail::ready_made<Preconditioner>>;
 
+  [[nodiscard]] auto& estimator() noexcept {
+    if constexpr (own_estimate) {
+      return preconditioner();
+    } else {
+      return estimator_;
+    }
+  }
+
+  /// What x leaves: its scaled residual, its backward error, and its estimated error.
+  struct measure {
+    double scaled, backward, error;
+  };
+  [[nodiscard]] measure measured(std::span<double> x) {
+    system_.center(x);
+    system_.residual(system_.sources(), x, residual_);
+    Eigen::VectorXd z = estimator().Estimator::solve(detail::as_eigen(std::span<const double>(residual_)));
+    system_.center(std::span<double>(z.data(), x.size()));
+    const auto size = [](std::span<const double> v) { return detail::as_eigen(v).template lpNorm<Eigen::Infinity>(); };
+    const double x_norm = size(x);
+    const double r_norm = size(residual_);
+    const double z_norm = z.lpNorm<Eigen::Infinity>();
+    return {system_.scaled_norm(residual_),
+            r_norm > 0 ? r_norm / (size(system_.sources()) + system_.norm() * x_norm) : 0.0,
+            x_norm > 0 || !(z_norm <= 0) ? z_norm / x_norm : 0.0};
+  }
+
+  /// Runs of conjugate gradients, each from the residual of x, until that and its V-cycle are small; the x of the least
+  /// estimated error.
+  void iterate(std::span<double> x, const solve_options& options, solve_report& report) {
+    const double target = options.tolerance * system_.scaled_norm(system_.sources());
+    measure now = measured(x);
+    double least = now.error;
+    best_.assign(x.begin(), x.end());
+    report.stop = solve_stop::converged;
+    int fruitless = 0;
+    for (bool first = true; !(now.error <= options.error_target() && now.backward <= options.tolerance &&
+                              (now.scaled <= target || !first));
+         first = false) {
+      if (report.iterations >= options.max_iterations || fruitless > 2) {
+        report.stop = fruitless > 2 ? solve_stop::stagnated : solve_stop::max_iterations;
+        std::copy(best_.begin(), best_.end(), x.begin());
+        now.error = least;
+        break;
+      }
+      // a later run has only the rest of the way to go, and aims lower, for its residual lags behind the error
+      const double rest = std::min(now.scaled > target ? target / now.scaled : 1.0, options.error_target() / now.error);
+      cg_->setTolerance(first && !options.warm ? options.tolerance : std::clamp(1e-5 * rest, options.tolerance, 1e-5));
+      cg_->setMaxIterations(static_cast<Eigen::Index>(options.max_iterations - report.iterations));
+      detail::as_eigen(std::span<double>(residual_)).array() /= operator_->root().array();
+      const Eigen::VectorXd step = cg_->solve(detail::as_eigen(std::span<const double>(residual_)));
+      report.iterations += static_cast<std::size_t>(cg_->iterations()) + (cg_->info() == Eigen::Success ? 1U : 0U);
+      detail::as_eigen(x).array() += step.array() / operator_->root().array();
+      now = measured(x);
+      fruitless = now.error < 0.5 * least ? 0 : fruitless + 1;
+      if (!(now.error >= least)) {
+        least = now.error;
+        best_.assign(x.begin(), x.end());
+      }
+    }
+    report.error_estimate = now.error;
+  }
+
+  using Estimator = std::conditional_t<own_estimate, Preconditioner, vcycle_preconditioner<float>>;
+
   pressure_system system_;
+  [[no_unique_address]] std::conditional_t<own_estimate, no_estimator, Estimator> estimator_;
   // at fixed addresses: Eigen's solvers do not move, and keep a reference to the operator
   std::unique_ptr<detail::flux_operator> operator_ = std::make_unique<detail::flux_operator>();
   std::unique_ptr<cg> cg_ = std::make_unique<cg>();
   bool ready_ = false;
   std::vector<double> residual_;
+  std::vector<double> best_;  // x of the least estimated error
 };
 static_assert(network_solver<eigen_cg_solver<>>);
 

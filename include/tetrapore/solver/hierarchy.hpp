@@ -198,8 +198,8 @@ class pairwise_aggregation {
     return leader;
   }
 
-  /// The pairs of sufficient quality, best first to 1 part in 8; among equals in the order of the rows, which lie close in
-  /// memory.
+  /// The pairs of sufficient quality, best first to 1 part in 8; among equals in the order of the rows, which lie close
+  /// in memory.
   [[nodiscard]] std::vector<candidate> candidates(const level_rows<T>& rows) const {
     constexpr std::uint32_t last_bucket = 0x7fffffffU >> 20U;
     const auto key = [](float quality) {
@@ -302,20 +302,20 @@ class pairwise_aggregation {
 
 }  // namespace detail
 
-/// A hierarchy of aggregates and its V-cycle: x = M⁻¹ b with M symmetric, positive (semi-)definite and close to the matrix
-/// of the pressure system, so that it preconditions any conjugate gradients.
+/// A hierarchy of aggregates and its V-cycle: x = M⁻¹ b with M symmetric, positive (semi-)definite and close to the
+/// matrix of the pressure system, so that it preconditions any conjugate gradients.
 ///
-/// Nodes are merged pair by pair, best quality first; conductances and excess of a coarser level are sums of those of the
-/// finer one, so that nothing cancels and floating clusters stay floating. One symmetric Gauss-Seidel sweep per level; the
-/// last level is solved by the subtraction-free LDLᵀ. Vectors and diagonals are held in double: in float a cluster that
-/// hangs on the rest by 1e-8 of its own conductances would lose its balance to rounding.
-/// \tparam T  what conductances are held in, relative to the largest; those that would vanish are raised to the smallest
-///            normal number of T. float costs no iterations, and a quarter less memory
-/// \par Domain  any graph. Made for few neighbours per node; where merging stalls above 5 · coarsest nodes, the last level
-///              is only smoothed, and iterations grow
+/// Nodes are merged pair by pair, best quality first; conductances and excess of a coarser level are sums of those of
+/// the finer one, so that nothing cancels and floating clusters stay floating. One symmetric Gauss-Seidel sweep per
+/// level; the last level is solved by the subtraction-free LDLᵀ. Vectors and diagonals are held in double: in float a
+/// cluster that hangs on the rest by 1e-8 of its own conductances would lose its balance to rounding.
+/// \tparam T  what conductances are held in, relative to the largest; those that would vanish are raised to the
+///            smallest normal number of T. float costs no iterations, and a quarter less memory
+/// \par Domain  any graph. Made for few neighbours per node; where merging stalls above 5 · coarsest nodes, the last
+///              level is only smoothed, and iterations grow
 /// \par Thread safety  none: a cycle works in the hierarchy
-/// \par Source  Notay, Electron. Trans. Numer. Anal. 37 (2010) 123 (quality of aggregates); Braess, Computing 55 (1995) 379
-///              (the stretched correction)
+/// \par Source  Notay, Electron. Trans. Numer. Anal. 37 (2010) 123 (quality of aggregates); Braess, Computing 55 (1995)
+///              379 (the stretched correction)
 template <std::floating_point T>
 class aggregation_hierarchy {
  public:
@@ -489,8 +489,8 @@ class aggregation_hierarchy {
     const T narrow = static_cast<T>(v);
     return v > 0 && narrow < least ? least : narrow;
   }
-  /// Brings the largest number to the square root of what T can hold: products with a vector of order 1 neither overflow
-  /// nor vanish.
+  /// Brings the largest number to the square root of what T can hold: products with a vector of order 1 neither
+  /// overflow nor vanish.
   [[nodiscard]] static double scale_of(std::span<const double> w, std::span<const double> s) noexcept {
     double largest = 0;
     for (const std::span<const double> values : {w, s}) {

@@ -257,9 +257,9 @@ class subtraction_free_ldlt {
     }
   }
 
-  /// x = A⁻¹ b; b and x may be the same array.
+  /// x = A⁻¹ b; b and x may be the same array. Always true: it needs no memory.
   template <class In, class Out>
-  void apply(const In& b, Out&& x) {
+  bool apply(const In& b, Out&& x) {
     const std::size_t n = order_.size();
     const auto order = order_.order();
     for (std::size_t i = 0; i < n; ++i) {
@@ -289,6 +289,7 @@ class subtraction_free_ldlt {
     for (std::size_t i = 0; i < n; ++i) {
       x[order[i]] = static_cast<std::remove_cvref_t<decltype(x[0])>>(work_[i]);
     }
+    return true;
   }
 
   [[nodiscard]] std::size_t size() const noexcept { return order_.size(); }

@@ -156,12 +156,20 @@ class pressure_system {
     return largest;
   }
 
-  /// Gives x zero mean in floating clusters and measures what was reached. Keeps the reason of the report, except that
-  /// x which is not finite is out of range.
-  void finish(std::span<double> x, solve_report& report) {
+  /// Gives v zero mean in floating clusters.
+  void center(std::span<double> v) const {
     if (!floating_.empty()) {
-      subtract_means(x, sum_floating(x));
+      subtract_means(v, sum_floating(v));
     }
+  }
+
+  /// ‖A‖ in the largest norm.
+  [[nodiscard]] double norm() const noexcept { return norm_; }
+
+  /// Gives x zero mean in floating clusters, measures what was reached, and decides whether that is a solution: see
+  /// solve_options. x which is not finite is out of range.
+  void finish(std::span<double> x, const solve_options& options, solve_report& report) {
+    center(x);
     residual_.resize(size());
     residual(sources_, x, residual_);
     report.residual = 0;
@@ -183,6 +191,11 @@ class pressure_system {
       x_norm = std::fmax(x_norm, std::abs(x[i]));
     }
     report.backward_error = report.residual > 0 ? report.residual / (b_norm + norm_ * x_norm) : 0.0;
+    const bool ended = report.stop == solve_stop::direct || report.stop == solve_stop::converged;
+    if (report.ok() &&
+        !(ended && report.backward_error <= options.tolerance && report.error_estimate <= options.error_target())) {
+      report.reason = solve_status::not_converged;
+    }
   }
 
  private:

@@ -14,16 +14,17 @@ namespace tetrapore::inline TETRAPORE_ABI {
 /// Whether a pressure system was solved, and if not, why.
 enum class solve_status : unsigned char {
   ok,
-  not_factorized,       ///< solve before analyze and factorize, or after a factorize that was refused
-  wrong_size,           ///< an array that does not fit the graph
-  invalid_weight,       ///< a conductance that is negative, infinite or NaN; `index` is its edge
-  invalid_excess,       ///< an excess that is negative, infinite or NaN; `index` is its node
-  invalid_source,       ///< a source that is infinite or NaN; `index` is its node
-  invalid_start,        ///< a warm start that is infinite or NaN; `index` is its node
-  unbalanced_cluster,   ///< a cluster without excess whose sources do not sum to zero; `index` is its first node
-  out_of_range,         ///< weights and sources whose solution or its residual is no finite number; `index` is a node
-  not_converged,        ///< `stop` says how it ended; x holds the best iterate
-  factorization_failed  ///< the factor does not exist in this arithmetic, or did not fit in memory
+  not_factorized,        ///< solve before analyze and factorize, or after a factorize that was refused
+  wrong_size,            ///< an array that does not fit the graph
+  invalid_weight,        ///< a conductance that is negative, infinite or NaN; `index` is its edge
+  invalid_excess,        ///< an excess that is negative, infinite or NaN; `index` is its node
+  invalid_source,        ///< a source that is infinite or NaN; `index` is its node
+  invalid_start,         ///< a warm start that is infinite or NaN; `index` is its node
+  unbalanced_cluster,    ///< a cluster without excess whose sources do not sum to zero; `index` is its first node
+  out_of_range,          ///< weights and sources whose solution or its residual is no finite number; `index` is a node
+  not_converged,         ///< `stop` says how it ended; x holds the best iterate
+  factorization_failed,  ///< the factor does not exist in this arithmetic, or did not fit in memory
+  no_memory              ///< there is a factor, but no memory to apply it in
 };
 
 [[nodiscard]] constexpr verdict verdict_of(solve_status s) noexcept {
@@ -31,7 +32,8 @@ enum class solve_status : unsigned char {
     case solve_status::ok: return verdict::ok;
     case solve_status::not_converged:
     case solve_status::out_of_range:
-    case solve_status::factorization_failed: return verdict::failed;
+    case solve_status::factorization_failed:
+    case solve_status::no_memory: return verdict::failed;
     default: return verdict::refused;
   }
 }
@@ -50,19 +52,20 @@ enum class solve_status : unsigned char {
              "Give it a boundary with a pressure, a compressibility, or balanced sources";
     case solve_status::out_of_range: return "numbers so large or so small that the solution is not finite";
     case solve_status::not_converged:
-      return "the residual is still above the tolerance. The usual causes: a tolerance below what rounding allows, or "
-             "sources in pores that are nearly sealed";
+      return "the residual or the estimated error is still above what the tolerance allows. The usual causes: too few "
+             "iterations, a tolerance below what rounding allows, or sources in pores that are nearly sealed";
     case solve_status::factorization_failed: return "no factor in this arithmetic, or no memory for it";
+    case solve_status::no_memory: return "no memory to apply the factor in";
   }
   return "not a status";
 }
 
-/// What ended a solution.
+/// What ended a solution. Only `direct` and `converged` can go with solve_status::ok.
 enum class solve_stop : unsigned char {
-  none,            ///< nothing was iterated: refused
-  direct,          ///< a factor was applied
-  backward_error,  ///< the residual, and the estimated error where there is one, are below the tolerance
-  stagnated,       ///< the residual has ceased to fall: rounding allows no less
+  none,       ///< nothing was iterated: refused
+  direct,     ///< a factor was applied, and its solution refined as far as that was due
+  converged,  ///< an iteration has reached what solve_options::tolerance asks for
+  stagnated,  ///< it has not, and further work no longer helps
   max_iterations
 };
 
@@ -70,7 +73,7 @@ enum class solve_stop : unsigned char {
   switch (s) {
     case solve_stop::none: return "nothing was solved";
     case solve_stop::direct: return "direct";
-    case solve_stop::backward_error: return "residual below the tolerance";
+    case solve_stop::converged: return "converged";
     case solve_stop::stagnated: return "stagnated";
     case solve_stop::max_iterations: return "largest number of iterations";
   }
@@ -78,9 +81,17 @@ enum class solve_stop : unsigned char {
 }
 
 /// How a system is to be solved.
+///
+/// The same for every solver: a solution is `ok` when
+/// - its backward error ‖r‖ / (‖b‖ + ‖A‖ ‖x‖), with r evaluated anew from the x that is returned, is at most
+///   `tolerance`, in the largest norm;
+/// - and its estimated error, where the solver has an estimate, is at most `error_target()`.
+///
+/// The second asks for more, for a normwise backward error of 1e-10 is reached by an x that is wrong altogether where
+/// conductances differ by more than 1e10. Iterative solvers also carry their first run on until the scaled residual
+/// ‖D^-½ r‖ / ‖D^-½ b‖, D the diagonal, is below `tolerance`; in it a sealed pore counts as much as a wide one. What
+/// is left of it after that is rounding in stiff pairs, and the two conditions above decide.
 struct solve_options {
-  /// On the scaled residual ‖D^-½ r‖ / ‖D^-½ b‖, D the diagonal, and with it on the backward error. A multigrid solver
-  /// also has its estimated error of x, relative to the largest |x|, below ten times as much.
   double tolerance = 1e-10;
   std::size_t max_iterations = 500;  ///< of an iterative solver
   bool warm = false;                 ///< x holds a guess on entry
@@ -88,6 +99,9 @@ struct solve_options {
   /// Σ b is taken off its nodes in equal parts.
   double balance = 1e-12;
   double balance_floor = 0;  ///< [unit of b] round-off of sources that were themselves made by subtraction
+
+  /// What the estimated error of x may be, relative to the largest |x|.
+  [[nodiscard]] constexpr double error_target() const noexcept { return 10 * tolerance; }
 };
 
 /// What became of a system; `factorize` fills what it knows.
@@ -102,9 +116,13 @@ struct solve_report {
   std::size_t worst_node = none;  ///< where it is
   /// ‖r‖ / (‖b‖ + ‖A‖ ‖x‖) in the largest norm, of the x that is returned.
   double backward_error = 0;
-  /// Estimated largest error of x over the largest |x|: the preconditioner applied to the residual, which multigrid
-  /// solvers check before they stop. A normwise backward error says little where conductances differ by 1e17; this
-  /// does. Negative: not estimated.
+  /// Estimated largest error of x over the largest |x|; negative: not estimated. Iterative solvers apply a V-cycle to
+  /// the residual evaluated anew; direct solvers take the last correction, where the solution was refined.
+  ///
+  /// An estimate, not a bound. A V-cycle shows an error that is smooth within a cluster of well-connected pores in its
+  /// right order (true errors up to 20 times the estimate have been seen), but rounding of x limits what any residual
+  /// can show: of two clusters joined by conductances below ε of those inside them, the level of one against the other
+  /// is only as good as the sums of their fluxes.
   double error_estimate = -1;
   std::size_t index = none;           ///< node or edge that the reason is about
   std::size_t clusters = 0;           ///< connected by positive conductances; an isolated node is one

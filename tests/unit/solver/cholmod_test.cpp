@@ -183,3 +183,28 @@ TEST_CASE("a solver may be moved with its factor") {
   CHECK(second.solve(c.b, x).ok());
   CHECK(relative_error(x, dense_truth(c)) <= 1e-14);
 }
+
+namespace {
+
+void* no_memory(std::size_t) { return nullptr; }
+
+}  // namespace
+
+TEST_CASE("a solution that finds no memory is a status that leaves x as it was, and the solver goes on") {
+  const pressure_case c = packing_like(6, 1.0, 2);
+  cholmod_solver solver;
+  solver.analyze(c.graph);
+  REQUIRE(solver.factorize(c.w, c.s).ok());
+  std::vector<double> x(c.b.size(), 4.0);
+  auto* const allocate = std::exchange(SuiteSparse_config.malloc_func, no_memory);
+  const solve_report report = solver.solve(c.b, x);
+  const std::vector<solve_report> reports = solver.solve_many(c.b, x);
+  SuiteSparse_config.malloc_func = allocate;
+  CHECK(report.reason == solve_status::no_memory);
+  CHECK(report.kind() == verdict::failed);
+  REQUIRE(reports.size() == 1);
+  CHECK(reports[0].reason == solve_status::no_memory);
+  CHECK(std::all_of(x.begin(), x.end(), [](double v) { return v == 4.0; }));
+  CHECK(solver.solve(c.b, x).ok());
+  CHECK(relative_error(x, dense_truth(c)) <= 1e-14);
+}
