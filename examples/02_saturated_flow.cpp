@@ -37,6 +37,12 @@ tp::packing read_grains(flow_job& job) {
   return packing;
 }
 
+void expect_solved(const tp::solve_report& report) {
+  if (!report.ok()) {
+    throw std::runtime_error(std::string("the pressures: ") + describe(report.reason));
+  }
+}
+
 // Steps 2 to 4: pores and throats; conductances and the system of pressures; the flow, and what it does to the grains.
 void run(flow_job job) {
   support::flow_seconds spent;
@@ -58,10 +64,7 @@ void run(flow_job job) {
                  first.index(), describe(why));
   }
 
-  const tp::solve_report report = flow.solve();
-  if (!report.ok()) {
-    throw std::runtime_error(std::string("the pressures: ") + describe(report.reason));
-  }
+  expect_solved(flow.solve());
   spent.setup = flow.solver().setup_seconds();
   spent.solve = flow.solver().solve_seconds();
   const tp::fluid_forces forces =
@@ -74,7 +77,7 @@ void run(flow_job job) {
   flow_job more = job;
   more.pressure_drop *= 1.1;
   flow.set_conditions(support::conditions_of(more, *packing.bounds));
-  flow.solve();
+  expect_solved(flow.solve());
   spent.resolve = flow.solver().solve_seconds();
 
   support::print_flow(flow, summary, spent, at_throats);

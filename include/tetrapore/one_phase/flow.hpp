@@ -101,12 +101,10 @@ class saturated_flow {
 
   /// \throw parameter_error  as the constructor
   void set_conditions(flow_conditions conditions) {
-    const vec3<double> gradient = system_.conditions().mean_gradient;
     if (!system_.set_conditions(*net_, std::move(conditions))) {
       solver_.analyze(system_.graph());
       factorized_ = false;
     }
-    near_ = near_ && system_.conditions().mean_gradient == gradient;  // the pressure contains the gradient
     x_.clear();
   }
 
@@ -236,7 +234,8 @@ class saturated_flow {
     }
     const flow_system::right_hand_side right = system_.sources(*net_, k, inflow);
     std::vector<double> x =
-        how.warm ? system_.start_from(*net_, pressure_.values()) : std::vector<double>(system_.unknowns(), 0.0);
+        how.warm ? system_.start_from(*net_, pressure_.values(), near_ ? gradient_ : system_.conditions().mean_gradient)
+                 : std::vector<double>(system_.unknowns(), 0.0);
     how.balance_floor += right.rounding + rates.rounding;
     const solve_report report = solver_.solve(right.b, x, how);
     expect_answer(report);
@@ -245,6 +244,7 @@ class saturated_flow {
       return report_;  // there is no x: the pressure stays
     }
     near_ = report.ok();
+    gradient_ = system_.conditions().mean_gradient;
     x_ = system_.with_held(x);
     if (per_time > 0) {
       system_.take_up(x_, per_time, inflow);
@@ -266,9 +266,10 @@ class saturated_flow {
         throw network_error("throat " + std::to_string(system_.throat_of(r.index).index()), describe(r.reason),
                             "a finite conductance of at least 0");
       case solve_status::unbalanced_cluster:
-        throw network_error("a cluster of " + std::to_string(r.cluster_size) + " nodes, at pores " + cluster_of(r.index),
-                            "sources with the sum " + short_number(r.imbalance) + " m³/s",
-                            "a pressure held in it, a compressible fluid, or sources that sum to zero");
+        throw network_error(
+            "a cluster of " + std::to_string(r.cluster_size) + " nodes, at pores " + cluster_of(r.index),
+            "sources with the sum " + short_number(r.imbalance) + " m³/s",
+            "a pressure held in it, a compressible fluid, or sources that sum to zero");
       case solve_status::invalid_excess:
       case solve_status::invalid_source:
       case solve_status::invalid_start:
@@ -317,7 +318,8 @@ class saturated_flow {
   solve_report report_;
   double per_time_ = 0;
   bool factorized_ = false;
-  bool near_ = false;  ///< the pressure is that of a solution
+  bool near_ = false;      ///< the pressure is that of a solution
+  vec3<double> gradient_;  ///< of that solution
 };
 
 }  // namespace tetrapore::inline TETRAPORE_ABI

@@ -189,11 +189,13 @@ class flow_system {
   }
 
   /// The unknowns from a pressure field: the start of a solution.
-  [[nodiscard]] std::vector<double> start_from(const network& net, std::span<const double> pressure) const {
+  /// \param gradient  the mean gradient that the pressure contains
+  [[nodiscard]] std::vector<double> start_from(const network& net, std::span<const double> pressure,
+                                               const vec3<double>& gradient) const {
     std::vector<double> x(unknowns());
     for (std::size_t i = 0; i < x.size(); ++i) {
       const pore_id p = pore_of(i);
-      x[i] = pressure[p.index()] - part_of(net, p);
+      x[i] = pressure[p.index()] - part_of(net, p, gradient);
     }
     return x;
   }
@@ -252,7 +254,10 @@ class flow_system {
   }
   /// What is added to x to make the pressure of a pore.
   [[nodiscard]] double part_of(const network& net, pore_id p) const noexcept {
-    const vec3<double> slope = conditions_.mean_gradient + fluid_.hydrostatic_gradient();
+    return part_of(net, p, conditions_.mean_gradient);
+  }
+  [[nodiscard]] double part_of(const network& net, pore_id p, const vec3<double>& gradient) const noexcept {
+    const vec3<double> slope = gradient + fluid_.hydrostatic_gradient();
     return slope == vec3<double>{} ? level_ : level_ + dot(slope, place(net, p));
   }
   /// Rise of the mean pressure from the node of pore 0 to that of pore 1.

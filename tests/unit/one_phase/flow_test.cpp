@@ -189,7 +189,8 @@ TEST_CASE("a sealed pore has the pressure of nobody, and is named when it is squ
   volume_rates squeeze;
   squeeze.values.assign(net.pore_count(), 0.0);
   squeeze.values[1] = -1;
-  CHECK_THROWS_WITH_AS((void)flow.solve(squeeze), doctest::Contains("a cluster of 1 nodes, at pores 1: found sources with the sum 1 m³/s"),
+  CHECK_THROWS_WITH_AS((void)flow.solve(squeeze),
+                       doctest::Contains("a cluster of 1 nodes, at pores 1: found sources with the sum 1 m³/s"),
                        network_error);
 }
 
@@ -375,7 +376,7 @@ TEST_CASE("a solution starts from the last one, from a guess of the caller's, or
   saturated_flow flow(net, even_law{}, watched_solver{}, o);
   const auto seen = flow.solver().seen;
   CHECK(flow.solve().ok());
-  CHECK(!seen->warm);  // nothing is known yet
+  CHECK(!seen->warm);                                 // nothing is known yet
   const auto start = [&](const flow_conditions& c) {  // what the present pressure is worth, less the mean held one
     const double level = 0.5 * (c.at(face::z_min).value + c.at(face::z_max).value);
     std::vector<double> x;
