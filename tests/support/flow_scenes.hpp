@@ -93,9 +93,11 @@ inline std::vector<scene> periodic_scenes() {
   out.push_back({"random", triangulated(random)});
   out.push_back({"random, a million boxes away", triangulated(far_away(random))});
   out.push_back({"overlapping", triangulated(inflated(random, 1.06))});
+  out.push_back({"overlapping, a million boxes away", triangulated(far_away(inflated(random, 1.06)))});
   for (const auto kind : {lattice_kind::simple_cubic, lattice_kind::body_centred, lattice_kind::face_centred}) {
-    out.push_back({"lattice " + std::to_string(static_cast<int>(kind)),
-                   triangulated(lattice(kind, {2, 3, 2}, 0.3, {true, true, true}))});
+    const packing p = lattice(kind, {2, 3, 2}, 0.3, {true, true, true});
+    out.push_back({"lattice " + std::to_string(static_cast<int>(kind)), triangulated(p)});
+    out.push_back({"lattice far away " + std::to_string(static_cast<int>(kind)), triangulated(far_away(p))});
   }
   return out;
 }
