@@ -3,7 +3,8 @@
 // Consolidation: a saturated column of grains under a piston, coupled two-way with the water in its pores.
 //
 // The grains are moved by a small discrete-element simulator (support/dem.hpp), which stands for the one that you have.
-// When the load on the piston rises, water carries the whole of it at first; as it drains through the piston, the grains
+// When the load on the piston rises, water carries the whole of it at first; as it drains through the piston, the
+// grains
 // take over and the column settles. Terzaghi's theory says how fast, from two numbers that are measured on the same
 // grains: their permeability, by a steady flow, and their stiffness, by the same load step without water.
 // `consolidation --help` lists the options.

@@ -150,7 +150,8 @@ class dem {
     throw tp::packing_error("the grains", "an unbalanced force of " + std::to_string(unbalanced()), "rest");
   }
 
-  /// Shortens the box evenly over its height, all grains with it, until the piston carries its load; then lets the grains
+  /// Shortens the box evenly over its height, all grains with it, until the piston carries its load; then lets the
+  /// grains
   /// come to rest. A piston alone would leave the column denser at one end.
   /// \return steps taken
   std::size_t compact(double tolerance) {

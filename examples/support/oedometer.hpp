@@ -86,7 +86,8 @@ struct oedometer_options {
   return tp::random_packing(radii, {.solid_fraction = 0.5, .aspect = {1, o.slenderness, 1}, .seed = o.seed});
 }
 
-/// Grains at rest under the first load. They have been loaded by three times the step before, and relieved: what slips has
+/// Grains at rest under the first load. They have been loaded by three times the step before, and relieved: what slips
+/// has
 /// slipped, and the step itself is elastic.
 [[nodiscard]] inline dem settled_column(tp::packing grains, const oedometer_options& o) {
   dem column(std::move(grains), o.material);
@@ -181,7 +182,8 @@ struct consolidation {
 };
 
 /// Mean pressure over the load in equal layers of the height, from the base up: of the pores whose node (where the
-/// pressure is that of the pore; on the wall for pores at a wall) lies in the layer, by volume. Beside it the theory at the
+/// pressure is that of the pore; on the wall for pores at a wall) lies in the layer, by volume. Beside it the theory
+/// at the
 /// same nodes.
 template <class Flow>
 [[nodiscard]] profile profile_of(const Flow& flow, double time, double load, std::size_t layers) {

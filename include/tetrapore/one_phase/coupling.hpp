@@ -184,7 +184,8 @@ template <class Sharing, class Law>
 ///
 /// One step: the network takes the positions; each pore changes its volume as fast as the velocities say; the pressure
 /// that balances this is found; its forces are added to the caller's. So the forces belong to the velocities before the
-/// caller's integration, and act in it as a viscous damper taken explicitly: its step is bounded by `largest_step`, unless
+/// caller's integration, and act in it as a viscous damper taken explicitly: its step is bounded by `largest_step`,
+/// unless
 /// the caller adds `added_mass` to the inertia of his grains.
 ///
 /// What a solution leaves unbalanced in a pore enters the next one as a source, so that no mass is lost however many
@@ -223,7 +224,8 @@ class coupled_flow {
     return step(dt, grains, velocities, forces, box_motion{net_.region().bounds});
   }
 
-  /// Makes a step: follows the grains, finds the pressure at the end of the step, adds its forces to `forces`. The forces
+  /// Makes a step: follows the grains, finds the pressure at the end of the step, adds its forces to `forces`. The
+  /// forces
   /// on walls: `wall_forces`.
   /// \param grains      range of anything with a position and a radius (see as_sphere), in the order of the network's.
   ///                    Along a periodic axis a grain may have been put back into the box
@@ -347,7 +349,8 @@ class coupled_flow {
   /// grain (the larger of the shares of load and of sweeping). Infinite where a throat of a grain is closed.
   [[nodiscard]] std::span<const double> drag_bounds() const noexcept { return drag_bounds_; }
 
-  /// Bound on the step of an explicit integrator of the caller, for the forces of the fluid alone: 2 / max Γ/m [s]. Walls
+  /// Bound on the step of an explicit integrator of the caller, for the forces of the fluid alone: 2 / max Γ/m [s].
+  /// Walls
   /// that are moved by the fluid are not counted.
   /// \param masses  range of numbers, one per grain [kg]
   template <class Masses>
@@ -367,7 +370,8 @@ class coupled_flow {
   }
 
   /// The semi-implicit step: an inertia of m + Γ dt/2 in place of m makes the forces of the fluid stable at any dt. It
-  /// takes the part Γ (v_new − v_old) of the drag at the end of the step and is consistent to first order in dt; where the
+  /// takes the part Γ (v_new − v_old) of the drag at the end of the step and is consistent to first order in dt; where
+  /// the
   /// motion is slow it changes nothing.
   [[nodiscard]] std::vector<double> added_mass(double dt) const {
     std::vector<double> out(drag_bounds_.begin(), drag_bounds_.end());

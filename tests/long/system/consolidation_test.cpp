@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Campaigns of the coupling: Terzaghi's consolidation on tall columns (docs/campaigns/consolidation_<seed>.json), and
-// 100,000 coupled steps of grains that keep rearranging, triangulated anew all the time (coupled_steps.json). A campaign
+// 100,000 coupled steps of grains that keep rearranging, triangulated anew all the time (coupled_steps.json). A
+// campaign
 // that has its file is not run again; the second one keeps what it has reached beside it and continues from there.
 #include "../../../examples/support/oedometer.hpp"
 
@@ -93,7 +94,7 @@ bool load(const std::filesystem::path& path, progress& p, support::dem& d) {
 
 }  // namespace
 
-TEST_CASE("a tall column consolidates within 3 % of Terzaghi, in its settlement and in its pressure (root mean square)") {
+TEST_CASE("a tall column consolidates within 3 % of Terzaghi, in settlement and in pressure (root mean square)") {
   const std::filesystem::path folder = TETRAPORE_CAMPAIGN_DIR;
   std::filesystem::create_directories(folder);
   constexpr std::size_t grains = 1500;
