@@ -233,7 +233,8 @@ TEST_CASE("100,000 coupled steps with triangulations anew lose no fluid, no numb
                       << ",\n  \"piston_travel_over_height\": " << done.travel / grains.height()
                       << ",\n  \"largest_pressure\": " << done.largest_pressure
                       << ",\n  \"unsolved_steps\": " << done.unsolved << ",\n  \"resident_mb_early\": " << done.first_mb
-                      << ",\n  \"resident_mb_late\": " << done.last_mb << ",\n  \"seconds\": " << done.seconds << "\n}\n";
+                      << ",\n  \"resident_mb_late\": " << done.last_mb
+                      << ",\n  \"seconds\": " << done.seconds << "\n}\n";
   std::filesystem::rename(part, path);
   std::filesystem::remove(kept);
 }
