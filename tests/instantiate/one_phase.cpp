@@ -26,11 +26,12 @@ template class saturated_flow<hydraulic_radius, ldlt_solver<>>;
 template class saturated_flow<darcy, multigrid_solver<>>;
 
 template fluid_forces forces_of_pressure(const network&, const flow_nodes&, const pressure_field&, const vec3<double>&,
-                                         const share_by_wetted_area&, bool);
+                                         const share_by_wetted_area&, const force_options&);
 template fluid_forces forces_on_grains(const direct_flow&);
 template fluid_forces forces_on_grains(const iterative_flow&);
-template fluid_forces forces_on_grains(const iterative_flow&, const share_by_wetted_area&, bool);
+template fluid_forces forces_on_grains(const iterative_flow&, const share_by_wetted_area&, const force_options&);
 template double box_permeability(const direct_flow&, face, face, double);
+template double box_permeability(const direct_flow&, face, face);
 template vec3<double> mean_velocity(const direct_flow&);
 template permeability_tensor tensor_of_permeability(direct_flow&, double, const solve_options&);
 

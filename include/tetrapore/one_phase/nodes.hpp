@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tetrapore/network/gather.hpp"
+#include "tetrapore/one_phase/cell_size.hpp"
 
 #include <algorithm>
 #include <array>
@@ -90,21 +91,6 @@ class flow_nodes {
     image at;
   };
 
-  [[nodiscard]] static double longest_edge2(const network& net, pore_id p) noexcept {
-    const pore_body<double> body = pore_body_at(net, p);
-    double longest = 0;
-    for (std::size_t i = 0; i < body.grain_count; ++i) {
-      for (std::size_t j = i + 1; j < body.grain_count; ++j) {
-        longest = std::max(longest, norm2(body.grains[j].centre - body.grains[i].centre));
-      }
-      for (std::size_t w = 0; w < body.wall_count(); ++w) {
-        const double height = body.walls[w].distance(body.grains[i].centre);
-        longest = std::max(longest, height * height);
-      }
-    }
-    return longest;
-  }
-
   [[nodiscard]] std::vector<link> links_of(const network& net, const node_rule& rule) {
     const std::size_t n = net.pore_count();
     std::vector<link> links;
@@ -112,7 +98,7 @@ class flow_nodes {
     std::vector<bool> loose(n, false);
     std::vector<pore_id> flat;
     for (std::size_t i = 0; i < n; ++i) {
-      longest2[i] = longest_edge2(net, pore_id(i));
+      longest2[i] = longest_edge2(pore_body_at(net, pore_id(i)));
       if (!(std::abs(net.volume(pore_id(i))) > rule.flatness * longest2[i] * std::sqrt(longest2[i]))) {
         loose[i] = true;
         flat.emplace_back(i);

@@ -3,6 +3,7 @@
 
 #include "tetrapore/core/executor.hpp"
 #include "tetrapore/network/gather.hpp"
+#include "tetrapore/one_phase/cell_size.hpp"
 
 #include <algorithm>
 #include <array>
@@ -114,19 +115,15 @@ namespace detail {
 
 /// Largest magnitude that a term of the volume rate can have, times the rounding unit.
 [[nodiscard]] inline double rounding_of(const moving_body<double>& m) noexcept {
-  double length2 = 0;
   double speed2 = 0;
   const auto& b = m.body;
   for (std::size_t k = 0; k < b.grain_count; ++k) {
-    length2 = std::max(length2, norm2(b.grains[k].centre - b.grains[0].centre));
     speed2 = std::max(speed2, norm2(m.velocities[k]));
     for (std::size_t w = 0; w < b.wall_count(); ++w) {
-      const double h = b.walls[w].distance(b.grains[k].centre);
-      length2 = std::max(length2, h * h);
       speed2 = std::max(speed2, m.wall_speeds[w] * m.wall_speeds[w]);
     }
   }
-  return 8 * epsilon<double> * length2 * std::sqrt(speed2);
+  return 8 * epsilon<double> * longest_edge2(b) * std::sqrt(speed2);
 }
 
 }  // namespace detail

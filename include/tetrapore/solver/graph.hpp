@@ -2,8 +2,6 @@
 #pragma once
 
 #include "tetrapore/core/error.hpp"
-#include "tetrapore/core/ids.hpp"
-#include "tetrapore/network/network.hpp"
 
 #include <array>
 #include <atomic>
@@ -140,28 +138,5 @@ class network_graph {
 
   detail::shared_constant<arrays> arrays_;
 };
-
-/// The graph of a network: a node per pore, an edge per throat between two pores, in the order of the throats.
-struct pore_graph {
-  network_graph graph;
-  std::vector<throat_id> throats;  ///< of each edge
-};
-
-/// A throat between a pore and its own periodic image carries no unknown flow, and becomes no edge.
-[[nodiscard]] inline pore_graph graph_of(const network& net) {
-  pore_graph made;
-  std::vector<network_graph::edge> edges;
-  edges.reserve(net.throat_count());
-  made.throats.reserve(net.throat_count());
-  for (std::size_t t = 0; t < net.throat_count(); ++t) {
-    const auto& ends = net.pores(throat_id(t));
-    if (ends[1].valid() && ends[0] != ends[1]) {
-      edges.push_back({ends[0].value, ends[1].value});
-      made.throats.push_back(throat_id(t));
-    }
-  }
-  made.graph = network_graph(net.pore_count(), std::move(edges));
-  return made;
-}
 
 }  // namespace tetrapore::inline TETRAPORE_ABI

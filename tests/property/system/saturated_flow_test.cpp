@@ -32,21 +32,6 @@ vec3<double> times(const matrix& m, const vec3<double>& v) { return {dot(m[0], v
 
 double difference(const vec3<double>& a, const vec3<double>& b) { return norm(a - b); }
 
-/// The cube of the size of a cell: what the rounding of its volume is counted in.
-double cube_of_size(const network& net, pore_id p) {
-  double longest = 0;
-  const pore_body<double> b = pore_body_at(net, p);
-  for (std::size_t i = 0; i < b.grain_count; ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      longest = std::max(longest, norm(b.grains[i].centre - b.grains[j].centre));
-    }
-    for (std::size_t w = 0; w < b.wall_count(); ++w) {
-      longest = std::max(longest, b.walls[w].distance(b.grains[i].centre));
-    }
-  }
-  return longest * longest * longest;
-}
-
 }  // namespace
 
 TEST_CASE("volume rates sum to zero in a closed box, however its grains move") {
@@ -89,7 +74,7 @@ TEST_CASE("grains that move with the velocity A x change each cell by tr(A) time
       double worst = 0;
       for (std::size_t i = 0; i < s.net.pore_count(); ++i) {
         const pore_id p(i);
-        const double cube = cube_of_size(s.net, p) + std::abs(s.net.volume(p));
+        const double cube = std::pow(longest_edge2(pore_body_at(s.net, p)), 1.5) + std::abs(s.net.volume(p));
         // velocities of the size of the box, of which a cell sees differences
         const double reach = norm(size) * std::pow(cube, 2.0 / 3.0);
         worst = std::max(worst, std::abs(rates.values[i] - trace * s.net.volume(p)) / (cube + 1e-2 * reach));
@@ -270,7 +255,7 @@ TEST_CASE("fluxes stay and forces turn when an open packing is rotated") {
     for (std::size_t i = 0; i < net.throat_count(); ++i) {
       q += flow.flux(throat_id(i)) * flow.pressure_drop(throat_id(i));
     }
-    return std::pair{q, forces_on_grains(flow, share_by_wetted_area{}, true)};
+    return std::pair{q, forces_on_grains(flow, share_by_wetted_area{}, {.stress = true})};
   };
   const auto [q, forces] = run(p.grains);
   const auto [q_turned, forces_turned] = run(turned);
@@ -434,4 +419,34 @@ TEST_CASE(
   flow.set_conditions(c);
   CHECK(flow.solve().ok());
   CHECK(flow.report().iterations < cold / 2 + 2);
+}
+
+namespace {
+
+/// The same law in a wrapper, with and without a word about walls.
+struct silent_wrapper {
+  hydraulic_radius inner;
+  template <real T>
+  [[nodiscard]] outcome<T, conductance_status> conductance(const throat<T>& t) const noexcept {
+    return inner.conductance(t);
+  }
+};
+struct telling_wrapper : silent_wrapper {
+  friend wall_condition tetrapore_wall_condition(const telling_wrapper& law) { return law.inner.wall; }
+};
+
+}  // namespace
+
+TEST_CASE("a law tells whether walls take shear by its member, or by the customisation point") {
+  const hydraulic_radius slips{.viscosity = 1.0, .wall = wall_condition::slip};
+  CHECK(wall_condition_of(slips) == wall_condition::slip);
+  CHECK(wall_condition_of(silent_wrapper{slips}) == wall_condition::no_slip);
+  CHECK(wall_condition_of(telling_wrapper{{slips}}) == wall_condition::slip);
+  const network net = triangulated(dense(60, {}, 7));
+  auto direct = flow_of(net, slips, between(face::y_min, 1, face::y_max, 0));
+  auto wrapped = flow_of(net, telling_wrapper{{slips}}, between(face::y_min, 1, face::y_max, 0));
+  CHECK(direct.solve().ok());
+  CHECK(wrapped.solve().ok());
+  CHECK(forces_on_grains(direct).viscous == forces_on_grains(wrapped).viscous);
+  CHECK(norm(forces_on_grains(wrapped).walls[0]) == 0);
 }
