@@ -421,8 +421,7 @@ class aggregation_hierarchy {
   template <class Visit>
   void cycle(const Visit& visit) {
     for (std::size_t l = 0; l + 1 < levels_.size(); ++l) {
-      sweep_forward(levels_[l]);
-      restrict_residual(levels_[l], levels_[l + 1]);
+      sweep_down(levels_[l], levels_[l + 1]);
     }
     level& last = levels_.back();
     if (direct_) {
@@ -548,19 +547,26 @@ class aggregation_hierarchy {
       z[i] = sum * f.inverse[i];
     }
   }
-  /// After that sweep the residual is Lᵀ z: summed over aggregates.
-  static void restrict_residual(const level& f, level& c) noexcept {
+  /// The same, and the residual that it leaves, Lᵀ z, summed over aggregates.
+  static void sweep_down(level& f, level& c) noexcept {
     const T* const w = f.rows.weights.data();
     const std::uint32_t* const column = f.rows.columns.data();
-    const double* const z = f.z.data();
+    const std::uint32_t* const aggregate = f.aggregate.data();
+    double* const z = f.z.data();
+    double* const coarse = c.r.data();
     std::fill(c.r.begin(), c.r.end(), 0.0);
     for (std::size_t i = 0; i < f.rows.size(); ++i) {
-      double sum = 0;
-      for (std::uint32_t k = f.rows.split[i]; k < f.rows.offsets[i + 1]; ++k) {
+      double sum = f.r[i];
+      const std::uint32_t begin = f.rows.offsets[i];
+      const std::uint32_t end = f.rows.split[i];
+      for (std::uint32_t k = begin; k < end; ++k) {
         sum += static_cast<double>(w[k]) * z[column[k]];
       }
-      if (f.aggregate[i] != detail::no_aggregate) {
-        c.r[f.aggregate[i]] += sum;
+      z[i] = sum * f.inverse[i];
+      for (std::uint32_t k = begin; k < end; ++k) {
+        if (const std::uint32_t a = aggregate[column[k]]; a != detail::no_aggregate) {
+          coarse[a] += static_cast<double>(w[k]) * z[i];
+        }
       }
     }
   }
