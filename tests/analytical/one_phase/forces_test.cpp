@@ -93,8 +93,8 @@ TEST_CASE("flow down through an equilateral facet: each grain is pushed down and
                              {vertex(grain_id(0)), vertex(grain_id(1)), vertex(grain_id(2))},
                              {above_first ? 3.0 : 1.0, above_first ? 1.0 : 3.0}, {volume, volume},
                              {vec3<double>{1, root3 / 3, side * h / 4}, vec3<double>{1, root3 / 3, -side * h / 4}});
-    const fluid_forces f =
-        forces_of_pressure(c.net, flow_nodes(c.net, every_pore), c.pressure, {}, share_by_wetted_area{}, true);
+    const fluid_forces f = forces_of_pressure(c.net, flow_nodes(c.net, every_pore), c.pressure, {},
+                                              share_by_wetted_area{}, {.stress = true});
     const double disc = pi<double> * r * r / 6;  // a sixth of a great circle
     const double open = (root3 - 3 * disc) / 3;  // a third of what the discs leave of the facet
     const double shear = drop * open;
@@ -136,7 +136,8 @@ TEST_CASE("a right-angled facet with unequal grains: arm × force is the torque,
   const std::array<double, 3> disc{0.75, 0.5, 0.25};
   const std::array<double, 3> open{1, 2, 1.5};
   const parts_by_radius parts{{{{r[0], disc[0], open[0]}, {r[1], disc[1], open[1]}, {r[2], disc[2], open[2]}}}};
-  const fluid_forces f = forces_of_pressure(c.net, flow_nodes(c.net, every_pore), c.pressure, {}, parts, true);
+  const fluid_forces f =
+      forces_of_pressure(c.net, flow_nodes(c.net, every_pore), c.pressure, {}, parts, {.stress = true});
   // the bisectors of the three corners, and half of their angles
   const std::array<vec3<double>, 3> bisector{{vec3<double>{1, 1, 0} / std::sqrt(2.0),
                                               vec3<double>{-3, 1, 0} / std::sqrt(10.0),
