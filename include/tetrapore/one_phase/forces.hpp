@@ -146,7 +146,7 @@ struct force_options {
 /// negative. Exact for the pressure of facets in which no disc is cut by the opposite edge and no two discs overlap: a
 /// disc that loses a segment or half of a lens keeps the centroid of its sector.
 /// \par Accuracy  force, torque and stress of single facets by hand, to 1e-14 (tests/analytical/one_phase/); pressure
-///                forces and stress of random packings are the tractions integrated over the spheres, to the 1e-9 of
+///                forces and stress of random packings are the tractions integrated over the spheres, to the 3e-9 of
 ///                the quadrature (tests/property/system/fluid_forces_test.cpp)
 /// \param pressure       the one that drives the flow: saturated_flow::driving_pressure; see `buoyancy` for the rest
 /// \param mean_gradient  of a periodic box [Pa/m]
