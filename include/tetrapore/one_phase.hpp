@@ -4,6 +4,7 @@
 /// \file
 /// Everything of one-phase flow: pressure, forces on the grains, permeability, grains that move.
 
+#include "tetrapore/one_phase/cell_size.hpp"
 #include "tetrapore/one_phase/conditions.hpp"
 #include "tetrapore/one_phase/conductances.hpp"
 #include "tetrapore/one_phase/coupling.hpp"
