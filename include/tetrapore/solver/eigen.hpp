@@ -408,7 +408,7 @@ class eigen_cg_solver {
   [[nodiscard]] measure measured(std::span<double> x) {
     system_.center(x);
     system_.residual(system_.sources(), x, residual_);
-    Eigen::VectorXd z = estimator().Estimator::solve(detail::as_eigen(std::span<const double>(residual_)));
+    Eigen::VectorXd z = estimator().estimator_type::solve(detail::as_eigen(std::span<const double>(residual_)));
     system_.center(std::span<double>(z.data(), x.size()));
     const auto size = [](std::span<const double> v) { return detail::as_eigen(v).template lpNorm<Eigen::Infinity>(); };
     const double x_norm = size(x);
@@ -455,10 +455,10 @@ class eigen_cg_solver {
     report.error_estimate = now.error;
   }
 
-  using Estimator = std::conditional_t<own_estimate, Preconditioner, vcycle_preconditioner<float>>;
+  using estimator_type = std::conditional_t<own_estimate, Preconditioner, vcycle_preconditioner<float>>;
 
   pressure_system system_;
-  [[no_unique_address]] std::conditional_t<own_estimate, no_estimator, Estimator> estimator_;
+  [[no_unique_address]] std::conditional_t<own_estimate, no_estimator, estimator_type> estimator_;
   // at fixed addresses: Eigen's solvers do not move, and keep a reference to the operator
   std::unique_ptr<detail::flux_operator> operator_ = std::make_unique<detail::flux_operator>();
   std::unique_ptr<cg> cg_ = std::make_unique<cg>();
