@@ -229,8 +229,8 @@ template <load_sharing Sharing = share_by_wetted_area>
 }
 
 /// Whether the fluid of a law slips along walls: what a free function `tetrapore_wall_condition(law)` says that
-/// argument-dependent lookup finds (the customisation point), else the law's member `wall`. Where a law says neither, the
-/// fluid sticks; so one that wraps another must hand on what that says.
+/// argument-dependent lookup finds (the customisation point), else the law's member `wall`. Where a law says neither,
+/// the fluid sticks; so one that wraps another must hand on what that says.
 template <conductance_law Law>
 [[nodiscard]] constexpr wall_condition wall_condition_of(const Law& law) {
   if constexpr (requires {
