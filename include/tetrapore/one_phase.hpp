@@ -8,6 +8,7 @@
 #include "tetrapore/one_phase/conditions.hpp"
 #include "tetrapore/one_phase/conductances.hpp"
 #include "tetrapore/one_phase/coupling.hpp"
+#include "tetrapore/one_phase/drag_bounds.hpp"
 #include "tetrapore/one_phase/flow.hpp"
 #include "tetrapore/one_phase/flow_system.hpp"
 #include "tetrapore/one_phase/forces.hpp"

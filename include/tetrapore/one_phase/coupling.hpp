@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tetrapore/network/transfer.hpp"
+#include "tetrapore/one_phase/drag_bounds.hpp"
 #include "tetrapore/one_phase/flow.hpp"
 #include "tetrapore/one_phase/forces.hpp"
 
@@ -47,7 +48,8 @@ struct coupling_options {
   /// Steps between two computations of the conductances and of the shares in which facets load grains. Volume rates and
   /// areas are always those of the present positions.
   std::size_t refresh_every = 1;
-  solve_options solve{.warm = true};  ///< a warm start is taken from the second step on
+  /// A warm start is the present pressure, across rebuilds too; before the first step only where the caller has set one.
+  solve_options solve{.warm = true};
 };
 
 /// How the box moves: where its faces are now, and the velocity of walls and periodic vectors.
@@ -80,11 +82,12 @@ enum class coupling_status : unsigned char {
 
 /// Where the fluid went. Volumes at the reference pressure [m³].
 struct fluid_ledger {
-  double squeezed = 0;    ///< pushed out of the pores by their change of volume
-  double injected = 0;    ///< by imposed fluxes
-  double stored = 0;      ///< taken up by compression
-  double outflow = 0;     ///< through pores of held pressure
-  double throughput = 0;  ///< exchanged by pores with the grains and with imposed fluxes: Σ of magnitudes
+  double squeezed = 0;  ///< pushed out of the pores by their change of volume
+  double injected = 0;  ///< by imposed fluxes
+  double stored = 0;    ///< taken up by compression
+  double outflow = 0;   ///< through pores of held pressure
+  /// Exchanged by pores with the grains, with imposed fluxes and through held pressures: Σ of magnitudes.
+  double throughput = 0;
 
   /// What is missing; to be compared with the throughput.
   [[nodiscard]] double defect() const noexcept { return std::abs(squeezed + injected - stored - outflow); }
@@ -151,33 +154,6 @@ void add_to(F& f, const vec3<double>& x) {
   }
 }
 
-/// The sharing that goes with a law: walls that the law lets slip take no shear.
-template <class Sharing, class Law>
-[[nodiscard]] Sharing sharing_of(const Law& law) {
-  if constexpr (requires {
-                  { law.wall } -> std::convertible_to<wall_condition>;
-                  Sharing{law.wall};
-                }) {
-    return Sharing{law.wall};
-  } else {
-    return Sharing{};
-  }
-}
-
-/// Weights by which the velocities of the vertices of a facet sweep it: the mean of what is linear between them. A wall
-/// takes none, for a facet that stands on a wall contains its normal.
-[[nodiscard]] inline std::array<double, 3> sweeping_weights(const throat<double>& t) noexcept {
-  if (t.grain_count == 3) {
-    return {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0};
-  }
-  if (t.grain_count == 2) {
-    const double a = t.walls[0].distance(t.grains[0].centre);
-    const double b = t.walls[0].distance(t.grains[1].centre);
-    return {(2 * a + b) / (3 * (a + b)), (a + 2 * b) / (3 * (a + b)), 0};
-  }
-  return {1, 0, 0};
-}
-
 }  // namespace detail
 
 /// A network that follows the caller's grains, the flow in it, and the forces of the flow on grains and walls.
@@ -185,11 +161,13 @@ template <class Sharing, class Law>
 /// One step: the network takes the positions; each pore changes its volume as fast as the velocities say; the pressure
 /// that balances this is found; its forces are added to the caller's. So the forces belong to the velocities before the
 /// caller's integration, and act in it as a viscous damper taken explicitly: its step is bounded by `largest_step`,
-/// unless
-/// the caller adds `added_mass` to the inertia of his grains.
+/// unless the caller adds `added_mass` to the inertia of his grains.
 ///
 /// What a solution leaves unbalanced in a pore enters the next one as a source, so that no mass is lost however many
 /// steps are made.
+///
+/// Neither copied nor moved, for the flow in it refers to the network in it: keep one in a std::optional or a
+/// std::unique_ptr where it must go from place to place.
 /// \par Thread safety  one thread at a time
 template <conductance_law Law, network_solver Solver, load_sharing Sharing = share_by_wetted_area>
 class coupled_flow {
@@ -197,8 +175,7 @@ class coupled_flow {
   /// \param net  with the grains where they are now
   /// \throw as saturated_flow; parameter_error  an explicit step without compressibility
   coupled_flow(network net, Law law, Solver solver, flow_options flow = {}, coupling_options options = {})
-      : coupled_flow(std::move(net), law, std::move(solver), std::move(flow), options,
-                     detail::sharing_of<Sharing>(law)) {}
+      : coupled_flow(std::move(net), law, std::move(solver), std::move(flow), options, sharing_of<Sharing>(law)) {}
   /// The same, with a sharing of the caller's; without one, walls take shear where the law says that the fluid sticks.
   coupled_flow(network net, Law law, Solver solver, flow_options flow, coupling_options options, Sharing sharing)
       : net_(std::move(net)),
@@ -212,8 +189,8 @@ class coupled_flow {
       throw parameter_error("refresh_every", "0", "at least 1");
     }
     unbalanced_ = field<quantity::extensive>(net_);
-    remember();
-    gather();
+    triangulated_ = lengths_of(net_);
+    found_ = gather();
   }
   coupled_flow(const coupled_flow&) = delete;
   coupled_flow& operator=(const coupled_flow&) = delete;
@@ -225,8 +202,7 @@ class coupled_flow {
   }
 
   /// Makes a step: follows the grains, finds the pressure at the end of the step, adds its forces to `forces`. The
-  /// forces
-  /// on walls: `wall_forces`.
+  /// forces on walls: `wall_forces`.
   /// \param grains      range of anything with a position and a radius (see as_sphere), in the order of the network's.
   ///                    Along a periodic axis a grain may have been put back into the box
   /// \param velocities  range of vectors (see coordinates) [m/s]
@@ -237,14 +213,16 @@ class coupled_flow {
   coupling_report step(double dt, const Grains& grains, const Velocities& velocities, Forces&& forces,
                        const box_motion& box) {
     if (!(dt > 0) || !std::isfinite(dt)) {
-      throw parameter_error("time step", std::to_string(dt), "a finite number above 0");
+      throw parameter_error("time step", short_number(dt), "a finite number above 0");
     }
     if (const auto n = static_cast<std::size_t>(std::distance(std::begin(forces), std::end(forces)));
         n != net_.grain_count()) {
       throw parameter_error("forces", std::to_string(n), std::to_string(net_.grain_count()));
     }
-    take(grains, box.bounds);
     take_velocities(velocities);
+    next_ = followed(grains, box.bounds);
+    net_.mutable_arrays().region.bounds = box.bounds;
+    std::swap(net_.mutable_arrays().grains, next_);
     coupling_report report;
     if (steps_since_refresh_ >= options_.refresh_every) {
       refresh();
@@ -265,7 +243,7 @@ class coupled_flow {
     old_.assign(flow_.pressure().values().begin(), flow_.pressure().values().end());
     if (options_.scheme == pressure_scheme::implicit_step) {
       solve_options how = options_.solve;
-      how.warm = how.warm && steps_ > 0;
+      how.warm = how.warm && (steps_ > 0 || std::any_of(old_.begin(), old_.end(), [](double p) { return p != 0; }));
       report.solve = flow_.step(dt, rates, how);
       report.reason = report.solve.ok() ? coupling_status::ok : coupling_status::not_solved;
     } else if (dt <= largest_explicit_step()) {
@@ -287,20 +265,56 @@ class coupled_flow {
   /// Triangulates the grains anew where they are, and carries the pressure over.
   /// \param engine  makes networks, see tessellation_engine
   /// \return how to carry fields of the caller
+  /// \throw parameter_error  there are conditions on single pores, which a rebuild renumbers: say the new ones;
+  ///                         as the constructor, the engine and tetrapore::rebuild. Nothing has changed then but that
+  ///                         the flow may have to be solved again before it tells fluxes
   template <class Engine, class Grains>
   transfer rebuild(const Engine& engine, const Grains& grains) {
     return rebuild(engine, grains, net_.region().bounds);
   }
   template <class Engine, class Grains>
   transfer rebuild(const Engine& engine, const Grains& grains, const box& bounds) {
-    take(grains, bounds);
-    const std::vector<sphere<double>> here(net_.grains().begin(), net_.grains().end());
-    transfer way = tetrapore::rebuild(net_, engine, here);
-    carry(way, flow_.pressure());
-    carry(way, unbalanced_);
-    flow_.update();
-    gather();
-    remember();
+    if (!flow_.system().conditions().pores.empty()) {
+      throw parameter_error("conditions of single pores",
+                            "pores of epoch " + std::to_string(net_.epoch()) + ", which a rebuild renumbers",
+                            "rebuild(engine, grains, bounds, conditions)");
+    }
+    return rebuild(engine, grains, bounds, [this](const network&) { return flow_.system().conditions(); });
+  }
+  /// The same, with other conditions: what conditions(net) says of the new network.
+  template <class Engine, class Grains, std::invocable<const network&> Conditions>
+  transfer rebuild(const Engine& engine, const Grains& grains, const box& bounds, const Conditions& conditions) {
+    network made = net_;
+    const std::vector<sphere<double>> here = followed(grains, bounds);
+    made.mutable_arrays().region.bounds = bounds;
+    made.mutable_arrays().grains = here;
+    transfer way = tetrapore::rebuild(made, engine, here);
+    flow_conditions wanted = conditions(std::as_const(made));
+    pressure_field pressure = flow_.pressure();
+    carry(way, pressure);
+    field<quantity::extensive> unbalanced = unbalanced_;
+    carry(way, unbalanced);
+    lengths triangulated = lengths_of(made);
+    const auto exchange = [&]() noexcept {
+      std::swap(net_, made);
+      std::swap(flow_.pressure(), pressure);
+    };
+    const flow_conditions before = flow_.system().conditions();
+    const std::uint64_t epoch = net_.epoch();
+    exchange();
+    try {
+      flow_.update(std::move(wanted));
+      found_ = gather();
+    } catch (...) {
+      exchange();
+      if (flow_.system().epoch() != epoch) {
+        flow_.update(before);
+      }
+      throw;
+    }
+    unbalanced_ = std::move(unbalanced);
+    triangulated_ = std::move(triangulated);
+    steps_since_rebuild_ = 0;
     steps_since_refresh_ = 0;
     return way;
   }
@@ -326,55 +340,52 @@ class coupled_flow {
     for (std::size_t i = 0; i < net_.pore_count(); ++i) {
       const double now = total_volume(pore_body_at(net_, pore_id(i)));
       volume += std::abs(now);
-      if (volumes_[i] > 0 && !(now > 0)) {
+      if (triangulated_.volumes[i] > 0 && !(now > 0)) {
         ++out.turned_cells;
         turned += std::abs(now);
       }
-      for_edges(pore_id(i), [&](std::size_t e, double length) {
-        const double change = length / edges_[e] - 1;
+      std::size_t e = triangulated_.first_edge[i];
+      for_edges(net_, pore_id(i), [&](double length) {
+        const double change = length / triangulated_.edges[e++] - 1;
         squares += change * change;
       });
     }
-    out.strain = edges_.empty() ? 0.0 : std::sqrt(squares / static_cast<double>(edges_.size()));
+    const std::size_t edges = triangulated_.edges.size();
+    out.strain = edges == 0 ? 0.0 : std::sqrt(squares / static_cast<double>(edges));
     out.turned_volume = volume > 0 ? turned / volume : 0.0;
     return out;
   }
 
-  /// Bound on the drag that each grain feels by its own motion [N s/m]: with Γ the diagonal of these, no motion v is
-  /// damped by more than v·Γ v. Computed with the conductances.
-  ///
-  /// Fluxes Q v sweep the facets, w is the diagonal of the conductances. The pressure drops that balance −div Q v are
-  /// w^-½ Π w^-½ Q v, with Π a projection; so a facet of area S loads its vertices, whose shares sum to 1, by at most
-  /// S²/w of the velocity it is swept with, and a row of the product is at most Σ S² share / w over the facets of a
-  /// grain (the larger of the shares of load and of sweeping). Infinite where a throat of a grain is closed.
-  [[nodiscard]] std::span<const double> drag_bounds() const noexcept { return drag_bounds_; }
+  /// Bound on the drag that each grain feels by its own motion [N s/m], at the last refresh: see bounds_of_drag. Always
+  /// finite; it leaves out the facets of `sealed_grains`.
+  [[nodiscard]] std::span<const double> drag_bounds() const noexcept { return found_.drag.values; }
+  /// Grains with a facet beside pores that closed throats seal off: see drag_bounds::sealed.
+  [[nodiscard]] std::span<const grain_id> sealed_grains() const noexcept { return found_.drag.sealed; }
 
   /// Bound on the step of an explicit integrator of the caller, for the forces of the fluid alone: 2 / max Γ/m [s].
-  /// Walls
-  /// that are moved by the fluid are not counted.
+  /// Walls that are moved by the fluid are not counted, nor facets of `sealed_grains`.
   /// \param masses  range of numbers, one per grain [kg]
   template <class Masses>
   [[nodiscard]] double largest_step(const Masses& masses) const {
     double fastest = 0;
     std::size_t i = 0;
     for (const auto& m : masses) {
-      if (i < drag_bounds_.size()) {
-        fastest = std::max(fastest, drag_bounds_[i] / static_cast<double>(m));
+      if (i < found_.drag.values.size()) {
+        fastest = std::max(fastest, found_.drag.values[i] / static_cast<double>(m));
       }
       ++i;
     }
-    if (i != drag_bounds_.size()) {
-      throw parameter_error("masses", std::to_string(i), std::to_string(drag_bounds_.size()) + ", one per grain");
+    if (i != found_.drag.values.size()) {
+      throw parameter_error("masses", std::to_string(i), std::to_string(found_.drag.values.size()) + ", one per grain");
     }
     return fastest > 0 ? 2 / fastest : infinity<double>;
   }
 
   /// The semi-implicit step: an inertia of m + Γ dt/2 in place of m makes the forces of the fluid stable at any dt. It
   /// takes the part Γ (v_new − v_old) of the drag at the end of the step and is consistent to first order in dt; where
-  /// the
-  /// motion is slow it changes nothing.
+  /// the motion is slow it changes nothing.
   [[nodiscard]] std::vector<double> added_mass(double dt) const {
-    std::vector<double> out(drag_bounds_.begin(), drag_bounds_.end());
+    std::vector<double> out(found_.drag.values.begin(), found_.drag.values.end());
     for (double& m : out) {
       m *= 0.5 * dt;
     }
@@ -383,7 +394,7 @@ class coupled_flow {
 
   /// Bound on the step of the explicit pressure scheme [s]: the least V_void / (K_f Σ w) of a node; 0 without
   /// compressibility.
-  [[nodiscard]] double largest_explicit_step() const noexcept { return largest_explicit_; }
+  [[nodiscard]] double largest_explicit_step() const noexcept { return found_.largest_explicit; }
 
   [[nodiscard]] const network& net() const noexcept { return net_; }
   [[nodiscard]] const saturated_flow<Law, Solver>& flow() const noexcept { return flow_; }
@@ -391,7 +402,7 @@ class coupled_flow {
   [[nodiscard]] pressure_field& pressure() noexcept { return flow_.pressure(); }
   void set_conditions(flow_conditions conditions) {
     flow_.set_conditions(std::move(conditions));
-    gather();
+    found_ = gather();
   }
   /// Force of the fluid on each wall in the last step, pressure and shear [N].
   [[nodiscard]] const std::array<vec3<double>, 6>& wall_forces() const noexcept { return wall_forces_; }
@@ -401,28 +412,27 @@ class coupled_flow {
   [[nodiscard]] std::size_t steps_since_rebuild() const noexcept { return steps_since_rebuild_; }
 
  private:
-  /// The network's snapshot of the grains; along periodic axes at the image nearest to where each was.
+  /// The grains as the network keeps them; along periodic axes at the image nearest to where each was.
   template <class Grains>
-  void take(const Grains& grains, const box& bounds) {
-    network_arrays& a = net_.mutable_arrays();
-    next_.clear();
+  [[nodiscard]] std::vector<sphere<double>> followed(const Grains& grains, const box& bounds) {
+    std::vector<sphere<double>> next = std::move(next_);
+    next.clear();
     for (const auto& g : grains) {
-      next_.push_back(as_sphere(g));
+      next.push_back(as_sphere(g));
     }
-    if (next_.size() != net_.grain_count()) {
-      throw parameter_error("grains", std::to_string(next_.size()), std::to_string(net_.grain_count()));
+    if (next.size() != net_.grain_count()) {
+      throw parameter_error("grains", std::to_string(next.size()), std::to_string(net_.grain_count()));
     }
     const vec3<double> size = bounds.size();
     for (std::size_t k = 0; k < 3; ++k) {
       if (!net_.region().is_periodic(k)) {
         continue;
       }
-      for (std::size_t i = 0; i < next_.size(); ++i) {
-        next_[i].centre[k] -= size[k] * std::round((next_[i].centre[k] - a.grains[i].centre[k]) / size[k]);
+      for (std::size_t i = 0; i < next.size(); ++i) {
+        next[i].centre[k] -= size[k] * std::round((next[i].centre[k] - net_.grains()[i].centre[k]) / size[k]);
       }
     }
-    a.region.bounds = bounds;
-    std::swap(a.grains, next_);
+    return next;
   }
 
   template <class Velocities>
@@ -438,123 +448,107 @@ class coupled_flow {
 
   void refresh() {
     measure(net_);
-    flow_.update();
-    gather();
+    flow_.update(flow_.system().conditions());
+    found_ = gather();
     steps_since_refresh_ = 0;
   }
 
-  /// Calls f(edge, length) for the edges of a pore, numbered from pore to pore.
+  /// Calls f(length) for the edges of a pore.
   template <class F>
-  void for_edges(pore_id p, const F& f) const {
-    const pore_body<double> body = pore_body_at(net_, p);
-    std::size_t e = first_edge_[p.index()];
+  static void for_edges(const network& net, pore_id p, const F& f) {
+    const pore_body<double> body = pore_body_at(net, p);
     for (std::size_t i = 0; i < body.grain_count; ++i) {
       for (std::size_t j = i + 1; j < body.grain_count; ++j) {
-        f(e++, norm(body.grains[j].centre - body.grains[i].centre));
+        f(norm(body.grains[j].centre - body.grains[i].centre));
       }
       for (std::size_t w = 0; w < body.wall_count(); ++w) {
-        f(e++, body.walls[w].distance(body.grains[i].centre));
+        f(body.walls[w].distance(body.grains[i].centre));
       }
     }
   }
 
-  /// The lengths and volumes of a new triangulation.
-  void remember() {
-    constexpr std::array<std::size_t, 5> edges_of{0, 3, 5, 6, 6};
-    first_edge_.clear();
-    volumes_.clear();
-    std::size_t total = 0;
-    for (std::size_t i = 0; i < net_.pore_count(); ++i) {
-      first_edge_.push_back(total);
-      total += edges_of[net_.grain_vertices(pore_id(i))];
-      volumes_.push_back(net_.volume(pore_id(i)));
+  /// Lengths of the edges of all pores, and volumes.
+  struct lengths {
+    std::vector<double> volumes;
+    std::vector<double> edges;
+    std::vector<std::size_t> first_edge;  ///< per pore
+  };
+  [[nodiscard]] static lengths lengths_of(const network& net) {
+    lengths out;
+    for (std::size_t i = 0; i < net.pore_count(); ++i) {
+      out.volumes.push_back(net.volume(pore_id(i)));
+      out.first_edge.push_back(out.edges.size());
+      for_edges(net, pore_id(i), [&](double length) { out.edges.push_back(length); });
     }
-    edges_.assign(total, 0.0);
-    for (std::size_t i = 0; i < net_.pore_count(); ++i) {
-      for_edges(pore_id(i), [&](std::size_t e, double length) { edges_[e] = length; });
-    }
-    steps_since_rebuild_ = 0;
+    return out;
   }
 
-  /// Shares of the facets, and the bounds that follow from the conductances.
-  void gather() {
-    const flow_nodes& nodes = flow_.system().nodes();
+  /// What follows from positions and conductances.
+  struct findings {
+    std::vector<std::array<double, 3>> shares;  ///< per throat: parts of its load that its vertices take
+    tetrapore::drag_bounds drag;
+    std::vector<double> storage;  ///< per node: void / bulk modulus [m³/Pa]
+    double largest_explicit = 0;  ///< [s]
+  };
+  [[nodiscard]] findings gather() const {
+    const flow_system& system = flow_.system();
+    const flow_nodes& nodes = system.nodes();
     const std::vector<double>& w = flow_.conductances().values;
-    shares_.assign(net_.throat_count(), {});
-    drag_bounds_.assign(net_.grain_count(), 0.0);
-    std::vector<double> sweeping(net_.grain_count(), 0.0);
+    findings out;
+    out.shares.assign(net_.throat_count(), {});
     std::vector<double> open(nodes.size(), 0.0);
     for (std::size_t i = 0; i < net_.throat_count(); ++i) {
       const throat_id t(i);
       if (net_.is_boundary(t) || nodes.inside(net_, t)) {
         continue;
       }
-      const auto& [a, b] = net_.pores(t);
       const throat<double> seen = nodes.throat_between(net_, t);
       const double area = norm(seen.area_vector);
       if (!(area > 0)) {
         continue;
       }
       const facet_load load = sharing_(seen);
-      const std::array<double, 3> swept = detail::sweeping_weights(seen);
+      for (std::size_t k = 0; k < 3; ++k) {
+        out.shares[i][k] = (load.pressure[k] + load.viscous[k]) / area;
+      }
+      const auto& [a, b] = net_.pores(t);
       open[nodes[a]] += w[i];
       open[nodes[b]] += w[i];
-      const bool matters = !flow_.system().is_held(a) || !flow_.system().is_held(b);
-      const auto slots = facet_slots(net_, a, net_.slot(t, 0));
-      for (std::size_t k = 0; k < 3; ++k) {
-        shares_[i][k] = (load.pressure[k] + load.viscous[k]) / area;
-        if (k < seen.grain_count && matters) {
-          const std::size_t g = net_.vertices(a)[slots[k]].grain().index();
-          drag_bounds_[g] += area * area * shares_[i][k] / w[i];
-          sweeping[g] += area * area * swept[k] / w[i];
-        }
-      }
     }
-    for (std::size_t g = 0; g < sweeping.size(); ++g) {
-      drag_bounds_[g] = std::max(drag_bounds_[g], sweeping[g]);
+    out.drag = bounds_of_drag(net_, system, w, out.shares);
+    out.storage.assign(nodes.size(), 0.0);
+    if (!system.compressible()) {
+      return out;
     }
-    storage_.assign(nodes.size(), 0.0);
-    largest_explicit_ = 0;
-    if (!flow_.system().compressible()) {
-      return;
-    }
-    double total = 0;
-    for (const double v : net_.arrays().volumes) {
-      total += std::abs(v);
-    }
-    const double rounding = 1e-12 * total / static_cast<double>(net_.pore_count());
-    const double per_pressure = 1 / flow_.system().fluid().bulk_modulus;
-    for (std::size_t i = 0; i < net_.pore_count(); ++i) {
-      const double v = net_.void_volume(pore_id(i));
-      storage_[nodes[pore_id(i)]] += v < 0 && v > -rounding ? 0.0 : v * per_pressure;
-    }
-    largest_explicit_ = infinity<double>;
+    system.take_up(std::vector<double>(nodes.size(), -1.0), 1.0, out.storage);
+    out.largest_explicit = infinity<double>;
     for (std::size_t n = 0; n < nodes.size(); ++n) {
-      if (open[n] > 0 && !flow_.system().is_held(nodes.pore(n))) {
-        largest_explicit_ = std::min(largest_explicit_, storage_[n] / open[n]);
+      if (open[n] > 0 && !system.is_held(nodes.pore(n))) {
+        out.largest_explicit = std::min(out.largest_explicit, out.storage[n] / open[n]);
       }
     }
+    return out;
   }
 
   [[nodiscard]] bool has_turned_pores() const noexcept {
-    return std::any_of(storage_.begin(), storage_.end(), [](double s) { return !(s >= 0); });
+    return std::any_of(found_.storage.begin(), found_.storage.end(), [](double s) { return !(s >= 0); });
   }
 
   /// What drives the flow out of each pore: the pressure without the weight of the fluid.
   void drive() {
     const flow_nodes& nodes = flow_.system().nodes();
     const vec3<double> slope = flow_.system().fluid().hydrostatic_gradient();
-    driving_.resize(net_.pore_count());
+    driving_ = pressure_field(net_);
     const bool boxed = net_.region().bounds.size() != vec3<double>{};
     const vec3<double> origin = boxed || net_.grain_count() == 0 ? net_.region().bounds.lo : net_.grains()[0].centre;
     for (std::size_t i = 0; i < driving_.size(); ++i) {
       const pore_id p(i);
-      driving_[i] = flow_.pressure()[p] - dot(slope, nodes.position(net_, p) - origin);
+      driving_[p] = flow_.pressure()[p] - dot(slope, nodes.position(net_, p) - origin);
     }
   }
   [[nodiscard]] double drop(throat_id t) const noexcept {
     const auto& [a, b] = net_.pores(t);
-    return driving_[a.index()] - driving_[b.index()] -
+    return driving_[a] - driving_[b] -
            dot(flow_.system().conditions().mean_gradient, net_.region().shift(net_.shift(t)));
   }
 
@@ -581,7 +575,7 @@ class coupled_flow {
     for (std::size_t i = 0; i < net_.pore_count(); ++i) {
       const std::size_t n = nodes[pore_id(i)];
       if (!flow_.system().is_held(pore_id(i))) {
-        flow_.pressure()[pore_id(i)] += dt * (entering[n] - leaving_[n]) / storage_[n];
+        flow_.pressure()[pore_id(i)] += dt * (entering[n] - leaving_[n]) / found_.storage[n];
       }
     }
   }
@@ -600,13 +594,14 @@ class coupled_flow {
     std::fill(unbalanced_.values().begin(), unbalanced_.values().end(), 0.0);
     for (std::size_t n = 0; n < nodes.size(); ++n) {
       const pore_id p = nodes.pore(n);
-      const double stored = storage_[n] * (flow_.pressure()[p] - old_[p.index()]);
+      const double stored = found_.storage[n] * (flow_.pressure()[p] - old_[p.index()]);
       const double left = (entering[n] - leaving_[n]) * dt - stored;
       report.fluid.injected += imposed[n] * dt;
       report.fluid.throughput += std::abs(imposed[n]) * dt;
       report.fluid.stored += stored;
       if (flow_.system().is_held(p)) {
         report.fluid.outflow += left;
+        report.fluid.throughput += std::abs(left);
       } else if (ties) {
         unbalanced_[p] = left;
       }
@@ -615,8 +610,13 @@ class coupled_flow {
 
   template <class Forces>
   void add_forces(Forces& forces) {
+    const vec3<double> slope = flow_.system().fluid().hydrostatic_gradient();
+    wall_forces_ = pressure_on_walls(net_, driving_);
     fluid_.assign(net_.grain_count(), {});
-    wall_forces_ = {};
+    if (slope != vec3<double>{}) {
+      fluid_ = buoyancy(net_, flow_.system().fluid());
+      add_hydrostatic_walls(slope);
+    }
     for (std::size_t i = 0; i < net_.throat_count(); ++i) {
       const throat_id t(i);
       if (net_.is_boundary(t)) {
@@ -632,24 +632,8 @@ class coupled_flow {
       for (std::size_t k = 0; k < 3; ++k) {
         const vertex v = net_.vertices(a)[slots[k]];
         (v.is_wall() ? wall_forces_[static_cast<std::size_t>(v.wall())] : fluid_[v.grain().index()]) +=
-            push * shares_[i][k];
+            push * found_.shares[i][k];
       }
-    }
-    const vec3<double> slope = flow_.system().fluid().hydrostatic_gradient();
-    for (std::size_t i = 0; i < net_.pore_count(); ++i) {
-      const pore_id p(i);
-      for (std::size_t k = net_.grain_vertices(p); k < 4; ++k) {
-        const face f = net_.vertices(p)[k].wall();
-        wall_forces_[static_cast<std::size_t>(f)] -=
-            net_.region().wall(f).normal * (driving_[i] * covered_area(net_, p, f));
-      }
-    }
-    if (slope != vec3<double>{}) {
-      for (std::size_t g = 0; g < fluid_.size(); ++g) {
-        const double r = net_.grains()[g].radius;
-        fluid_[g] -= slope * (4.0 / 3.0 * pi<double> * r * r * r);
-      }
-      add_hydrostatic_walls(slope);
     }
     std::size_t g = 0;
     for (auto&& f : forces) {
@@ -679,21 +663,14 @@ class coupled_flow {
   std::size_t steps_ = 0;
   std::size_t steps_since_refresh_ = 0;
   std::size_t steps_since_rebuild_ = 0;
-  // of the last triangulation
-  std::vector<double> volumes_;
-  std::vector<double> edges_;
-  std::vector<std::size_t> first_edge_;
-  // of the last refresh
-  std::vector<std::array<double, 3>> shares_;
-  std::vector<double> drag_bounds_;
-  std::vector<double> storage_;
-  double largest_explicit_ = 0;
+  lengths triangulated_;  ///< of the last triangulation
+  findings found_;        ///< of the last refresh
   // of the last step
   std::array<vec3<double>, 6> wall_forces_{};
   std::vector<sphere<double>> next_;
   std::vector<vec3<double>> velocities_;
   std::vector<double> old_;
-  std::vector<double> driving_;
+  pressure_field driving_;
   std::vector<double> leaving_;
   std::vector<vec3<double>> fluid_;
 };

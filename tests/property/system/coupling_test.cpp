@@ -5,6 +5,7 @@
 #include "tetrapore/one_phase/coupling.hpp"
 #include "tetrapore/packing/random_packing.hpp"
 #include "tetrapore/solver/ldlt.hpp"
+#include "tetrapore/solver/multigrid.hpp"
 
 #include <doctest/doctest.h>
 
@@ -14,6 +15,9 @@
 #include <cstdint>
 #include <deque>
 #include <numbers>
+#include <set>
+#include <stdexcept>
+#include <type_traits>
 #include <vector>
 
 namespace {
@@ -93,6 +97,59 @@ void move(packing& p, compression& c, double dt) {
     (is_max(f) ? p.bounds->hi : p.bounds->lo)[axis_of(f)] += c.box.walls[static_cast<std::size_t>(f)][axis_of(f)] * dt;
   }
   c.box.bounds = *p.bounds;
+}
+
+/// A law that lets little or nothing pass some of the throats.
+struct law_with_obstacles {
+  hydraulic_radius open;
+  double share = 0;                    ///< of the throats that have an obstacle
+  double passing = 0;                  ///< share of the conductance that is left there
+  vec sealed{infinity<double>, 0, 0};  ///< a node all of whose throats are closed
+  conductance_status reason = conductance_status::closed;
+  const bool* active = nullptr;  ///< where set, obstacles are there while it is true
+
+  template <real T>
+  [[nodiscard]] outcome<T, conductance_status> conductance(const throat<T>& t) const noexcept {
+    auto k = open.conductance(t);
+    const double pick = 1e4 * (std::abs(t.area_vector.x) + std::abs(t.area_vector.y) + std::abs(t.area_vector.z));
+    const bool closed = norm(t.nodes[0] - sealed) < 1e-12 || norm(t.nodes[1] - sealed) < 1e-12;
+    if ((active == nullptr || *active) && (closed || pick - std::floor(pick) < share)) {
+      k.value *= closed ? 0 : passing;
+      k.reason = k.value > 0 ? k.reason : reason;
+    }
+    return k;
+  }
+};
+using obstructed = coupled_flow<law_with_obstacles, ldlt_solver<>>;
+
+/// Largest rate at which the fluid brakes a motion [1/s], found by iteration.
+template <class Flow>
+double fastest_drag(Flow& flow, const packing& p, const std::vector<double>& masses, std::vector<vec>& v, int rounds) {
+  double growth = 0;
+  for (int k = 0; k < rounds; ++k) {
+    std::vector<vec> f(v.size());
+    REQUIRE(flow.step(1, p.grains, v, f).ok());
+    double old = 0;
+    double now = 0;
+    for (std::size_t i = 0; i < v.size(); ++i) {
+      old += norm2(v[i]) * masses[i];
+      v[i] = f[i] / -masses[i];
+      now += norm2(v[i]) * masses[i];
+    }
+    growth = std::sqrt(now / old);
+    for (vec& x : v) {
+      x *= 1 / std::sqrt(now);
+    }
+  }
+  return growth;
+}
+
+std::vector<double> masses_of(const packing& p) {
+  std::vector<double> masses;
+  for (const auto& g : p.grains) {
+    masses.push_back(g.radius * g.radius * g.radius);
+  }
+  return masses;
 }
 
 /// Positions and velocities as a user may have them.
@@ -406,31 +463,9 @@ TEST_CASE("the drag of no motion exceeds its bound; beyond it an explicit step g
   const packing p = grains_in_a_box();
   const std::size_t n = p.grains.size();
   coupled flow(mesh_of(p), law, ldlt_solver<>{}, drained_at(face::y_max));
-  std::vector<double> masses;
-  for (const auto& g : p.grains) {
-    masses.push_back(g.radius * g.radius * g.radius);
-  }
-  const auto rate = [&](std::vector<vec>& v, std::size_t rounds) {
-    double growth = 0;
-    for (std::size_t k = 0; k < rounds; ++k) {
-      std::vector<vec> f(n);
-      REQUIRE(flow.step(1, p.grains, v, f).ok());
-      double old = 0;
-      double now = 0;
-      for (std::size_t i = 0; i < n; ++i) {
-        old += norm2(v[i]) * masses[i];
-        v[i] = f[i] / -masses[i];
-        now += norm2(v[i]) * masses[i];
-      }
-      growth = std::sqrt(now / old);
-      for (vec& x : v) {
-        x *= 1 / std::sqrt(now);
-      }
-    }
-    return growth;
-  };
+  const std::vector<double> masses = masses_of(p);
   std::vector<vec> fastest = random_velocities(n);
-  const double measured = rate(fastest, 60);
+  const double measured = fastest_drag(flow, p, masses, fastest, 60);
   const double bound = 2 / flow.largest_step(masses);
   MESSAGE("largest drag rate over its bound: " << measured / bound);
   CHECK(measured <= bound);
@@ -496,4 +531,276 @@ TEST_CASE("positions, velocities and forces may be of any type and container") {
   CHECK_THROWS_AS(flow.step(0.1, bodies, v, too_few), parameter_error);
   CHECK_THROWS_AS(flow.step(0.0, bodies, v, pushed), parameter_error);
   CHECK_THROWS_AS(flow.step(0.1, bodies, std::vector<vec>(2), pushed), parameter_error);
+}
+
+TEST_CASE("beside closed throats the drag has a finite bound, by the ways round them, and no motion exceeds it") {
+  const packing p = grains_in_a_box();
+  const std::vector<double> masses = masses_of(p);
+  for (const double passing : {0.0, 1e-18, 1e-5}) {
+    obstructed flow(mesh_of(p), {.open = law, .share = 0.05, .passing = passing}, ldlt_solver<>{},
+                    drained_at(face::y_max));
+    CHECK(flow.sealed_grains().empty());
+    double largest_bound = 0;
+    for (const double b : flow.drag_bounds()) {
+      CHECK(std::isfinite(b));
+      CHECK(b > 0);
+      largest_bound = std::max(largest_bound, b);
+    }
+    for (const double m : flow.added_mass(1e-3)) {
+      CHECK(m <= 0.5e-3 * largest_bound);
+    }
+    std::vector<vec> v = random_velocities(p.grains.size());
+    const double measured = fastest_drag(flow, p, masses, v, 60);
+    const double bound = 2 / flow.largest_step(masses);
+    MESSAGE("a share of " << passing << " passes: largest drag rate over its bound " << measured / bound);
+    CHECK(measured <= bound);
+    CHECK(measured > 0.005 * bound);
+  }
+}
+
+TEST_CASE("the grains of a sealed pore are named, their bounds are finite, and a compressible fluid bears them") {
+  const packing p = grains_in_a_box();
+  const network net = mesh_of(p);
+  const flow_nodes nodes(net);
+  pore_id inner;
+  for (std::size_t i = 0; i < net.pore_count() && !inner.valid(); ++i) {
+    const pore_id candidate(i);
+    std::size_t members = 0;
+    for (std::size_t j = 0; j < net.pore_count(); ++j) {
+      members += nodes[pore_id(j)] == nodes[candidate] ? 1U : 0U;
+    }
+    if (net.grain_vertices(candidate) == 4 && members == 1) {
+      inner = candidate;
+    }
+  }
+  REQUIRE(inner.valid());
+  flow_options o = drained_at(face::y_max);
+  o.fluid.bulk_modulus = 50;
+  obstructed flow(net, {.open = law, .sealed = nodes.position(net, inner)}, ldlt_solver<>{}, o);
+  std::set<grain_id> expected;
+  for (const vertex v : net.vertices(inner)) {
+    expected.insert(v.grain());
+  }
+  CHECK(std::set<grain_id>(flow.sealed_grains().begin(), flow.sealed_grains().end()) == expected);
+  CHECK(std::all_of(flow.drag_bounds().begin(), flow.drag_bounds().end(), [](double b) { return std::isfinite(b); }));
+  CHECK(flow.largest_step(masses_of(p)) > 0);
+  std::vector<vec> forces(p.grains.size());
+  REQUIRE(flow.step(1e-3, p.grains, random_velocities(p.grains.size()), forces).ok());
+  CHECK(std::isfinite(largest(forces)));
+  CHECK(flow.ledger().defect() < 1e-13 * flow.ledger().throughput);
+
+  o.fluid.bulk_modulus = infinity<double>;
+  obstructed stiff(net, {.open = law, .sealed = nodes.position(net, inner)}, ldlt_solver<>{}, o);
+  CHECK_THROWS_AS(stiff.step(1e-3, p.grains, random_velocities(p.grains.size()), forces), network_error);
+}
+
+TEST_CASE("throats that the law refuses may be closed: the flow goes round them and loses nothing") {
+  packing p = grains_in_a_box();
+  const law_with_obstacles refusing{
+      .open = law, .share = 0.05, .reason = conductance_status::negative_hydraulic_radius};
+  flow_options o = drained_at(face::y_max);
+  obstructed flow(mesh_of(p), refusing, ldlt_solver<>{}, o);
+  CHECK(flow.flow().conductances().counts.refused() > 10);
+  compression c(p, 0.05);
+  std::vector<vec> forces(p.grains.size());
+  const double before = p.bounds->volume();
+  for (int step = 0; step < 6; ++step) {
+    forces.assign(p.grains.size(), vec{});
+    REQUIRE(flow.step(0.01, p.grains, c.velocities, forces, c.box).ok());
+    CHECK(norm(sum(forces, flow.wall_forces())) < 1e-11 * largest(forces) * 160);
+    move(p, c, 0.01);
+  }
+  CHECK(flow.ledger().outflow == doctest::Approx(before - p.bounds->volume()).epsilon(1e-11));
+  CHECK(flow.ledger().defect() < 1e-13 * flow.ledger().throughput);
+  o.refused = refused_throats::error;
+  CHECK_THROWS_AS(obstructed(mesh_of(p), refusing, ldlt_solver<>{}, o), network_error);
+}
+
+TEST_CASE("with multigrid a step gives the forces of the direct solver, and starts from the pressure it has") {
+  packing p = grains_in_a_box();
+  const std::vector<vec> v = random_velocities(p.grains.size());
+  const multigrid_solver<> multigrid({.coarsest = 50});  // a hierarchy, small as the packing is
+  using coupled_multigrid = coupled_flow<hydraulic_radius, multigrid_solver<>>;
+  coupled direct(mesh_of(p), law, ldlt_solver<>{}, drained_at(face::y_max, 3.0));
+  coupled_multigrid flow(mesh_of(p), law, multigrid, drained_at(face::y_max, 3.0));
+  std::vector<vec> exact(p.grains.size());
+  std::vector<vec> forces(p.grains.size());
+  REQUIRE(direct.step(0.1, p.grains, v, exact).ok());
+  const coupling_report cold = flow.step(0.1, p.grains, v, forces);
+  REQUIRE(cold.ok());
+  for (std::size_t g = 0; g < forces.size(); ++g) {
+    CHECK(norm(forces[g] - exact[g]) < 1e-7 * largest(exact));
+  }
+  MESSAGE("iterations of the first step: " << cold.solve.iterations);
+  REQUIRE(cold.solve.iterations > 5);
+  const auto iterations_of = [&](auto& f) {
+    std::vector<vec> ignored(p.grains.size());
+    const coupling_report r = f.step(0.1, p.grains, v, ignored);
+    REQUIRE(r.ok());
+    return r.solve.iterations;
+  };
+  CHECK(iterations_of(flow) <= 1);
+  flow.rebuild(compiled_triangulation{}, p.grains);  // the same grains: what was carried is the solution
+  CHECK(iterations_of(flow) <= 1);
+  coupled_multigrid guessed(mesh_of(p), law, multigrid, drained_at(face::y_max, 3.0));
+  std::copy(direct.pressure().values().begin(), direct.pressure().values().end(), guessed.pressure().values().begin());
+  CHECK(iterations_of(guessed) <= 1);
+  coupled_multigrid stubborn(mesh_of(p), law, multigrid, drained_at(face::y_max, 3.0), {.solve = {.warm = false}});
+  CHECK(iterations_of(stubborn) == cold.solve.iterations);
+  CHECK(iterations_of(stubborn) > 5);
+}
+
+TEST_CASE("conditions of single pores do not outlive their pores: a rebuild asks for those of the new network") {
+  packing p = grains_in_a_box();
+  const network net = mesh_of(p);
+  flow_options o;
+  o.refused = refused_throats::closed;
+  const auto drain = [](const network& n) {  // the pore next to the middle of the box
+    const vec middle = (n.region().bounds.lo + n.region().bounds.hi) * 0.5;
+    pore_id best(0);
+    for (std::size_t i = 0; i < n.pore_count(); ++i) {
+      const pore_id candidate(i);
+      best = norm2(n.power_centre(candidate) - middle) < norm2(n.power_centre(best) - middle) ? candidate : best;
+    }
+    flow_conditions c;
+    c.pores.push_back({best, held_pressure(2.0)});
+    return c;
+  };
+  o.conditions = drain(net);
+  coupled flow(net, law, ldlt_solver<>{}, o);
+  compression c(p, 0.5);
+  const auto jitter = random_velocities(p.grains.size());
+  for (std::size_t i = 0; i < jitter.size(); ++i) {
+    c.velocities[i] += jitter[i] * 0.3;
+  }
+  std::vector<vec> forces(p.grains.size());
+  for (int step = 0; step < 10; ++step) {
+    REQUIRE(flow.step(0.005, p.grains, c.velocities, forces, c.box).ok());
+    move(p, c, 0.005);
+  }
+  const std::vector<double> pressure(flow.pressure().values().begin(), flow.pressure().values().end());
+  const auto at = flow.net().grains()[5].centre;
+  CHECK_THROWS_AS(flow.rebuild(compiled_triangulation{}, p.grains, *p.bounds), parameter_error);
+  CHECK(flow.net().epoch() == net.epoch());
+  CHECK(flow.net().grains()[5].centre == at);
+  CHECK(std::equal(pressure.begin(), pressure.end(), flow.pressure().values().begin()));
+
+  flow.rebuild(compiled_triangulation{}, p.grains, *p.bounds, drain);
+  o.conditions = drain(flow.net());
+  REQUIRE(flow.flow().system().conditions().pores[0].pore == o.conditions.pores[0].pore);
+  forces.assign(p.grains.size(), vec{});
+  REQUIRE(flow.step(0.005, p.grains, c.velocities, forces, c.box).ok());
+  CHECK(flow.pressure()[o.conditions.pores[0].pore] == doctest::Approx(2.0));
+  coupled fresh(mesh_of(p), law, ldlt_solver<>{}, o);
+  std::vector<vec> expected(p.grains.size());
+  REQUIRE(fresh.step(0.005, p.grains, c.velocities, expected, c.box).ok());
+  for (std::size_t g = 0; g < forces.size(); ++g) {
+    CHECK(norm(forces[g] - expected[g]) < 1e-10 * largest(expected));
+  }
+}
+
+TEST_CASE("a rebuild that fails has changed nothing, wherever it failed") {
+  static_assert(!std::is_copy_constructible_v<coupled> && !std::is_move_constructible_v<coupled>);
+  packing p = grains_in_a_box();
+  bool refuse = false;
+  const law_with_obstacles moody{
+      .open = law, .share = 0.05, .reason = conductance_status::invalid_input, .active = &refuse};
+  flow_options o = drained_at(face::y_max);
+  o.refused = refused_throats::error;
+  o.fluid.bulk_modulus = 50;
+  obstructed flow(mesh_of(p), moody, ldlt_solver<>{}, o);
+  obstructed twin(mesh_of(p), moody, ldlt_solver<>{}, o);
+  compression c(p, 0.5);
+  std::vector<vec> forces(p.grains.size());
+  const auto advance = [&] {
+    forces.assign(p.grains.size(), vec{});
+    REQUIRE(flow.step(0.005, p.grains, c.velocities, forces, c.box).ok());
+    std::vector<vec> expected(p.grains.size());
+    REQUIRE(twin.step(0.005, p.grains, c.velocities, expected, c.box).ok());
+    CHECK(forces == expected);
+    CHECK(flow.steps_since_rebuild() == twin.steps_since_rebuild());
+    CHECK(flow.distortion().strain == twin.distortion().strain);
+    CHECK(std::equal(flow.drag_bounds().begin(), flow.drag_bounds().end(), twin.drag_bounds().begin()));
+    move(p, c, 0.005);
+  };
+  advance();
+  advance();
+  SUBCASE("in the engine") {
+    const auto broken = [](std::span<const sphere<double>>, const domain&) -> tessellation {
+      throw std::runtime_error("no triangulation");
+    };
+    CHECK_THROWS_AS(flow.rebuild(broken, p.grains, *p.bounds), std::runtime_error);
+  }
+  SUBCASE("in the caller's grains") {
+    auto fewer = p.grains;
+    fewer.pop_back();
+    CHECK_THROWS_AS(flow.rebuild(compiled_triangulation{}, fewer, *p.bounds), parameter_error);
+  }
+  SUBCASE("in the law") {
+    refuse = true;
+    CHECK_THROWS_AS(flow.rebuild(compiled_triangulation{}, p.grains, *p.bounds), network_error);
+    refuse = false;
+  }
+  SUBCASE("in the conditions") {
+    const auto impossible = [](const network& n) {
+      flow_conditions f;
+      f.pores.push_back({pore_id(n.pore_count()), held_pressure(1)});
+      return f;
+    };
+    CHECK_THROWS_AS(flow.rebuild(compiled_triangulation{}, p.grains, *p.bounds, impossible), parameter_error);
+  }
+  CHECK(flow.net().epoch() == twin.net().epoch());
+  advance();
+  advance();
+}
+
+TEST_CASE("what held pores let through counts as throughput") {
+  const packing p = grains_in_a_box();
+  flow_options o = drained_at(face::y_max);
+  o.conditions.at(face::y_min) = held_pressure(1);
+  coupled flow(mesh_of(p), law, ldlt_solver<>{}, o);
+  std::vector<vec> forces(p.grains.size());
+  REQUIRE(flow.step(0.1, p.grains, std::vector<vec>(p.grains.size()), forces).ok());
+  const double q = flow.flow().flux(face::y_min);
+  REQUIRE(q > 0);
+  CHECK(flow.ledger().throughput == doctest::Approx(2 * q * 0.1).epsilon(1e-12));
+  CHECK(std::abs(flow.ledger().outflow) < 1e-13 * flow.ledger().throughput);
+  CHECK(flow.ledger().defect() < 1e-13 * flow.ledger().throughput);
+}
+
+TEST_CASE("what a step squeezes out of each cell is the change of its volume, at first order of the step") {
+  for (const bool repeats : {false, true}) {
+    const auto error = [&](double dt) {
+      packing p = grains_in_a_box(4, {repeats, false, repeats});
+      compression c(p, 0.5);
+      const auto jitter = random_velocities(p.grains.size());
+      for (std::size_t i = 0; i < jitter.size(); ++i) {
+        c.velocities[i] += jitter[i] * 0.3;
+      }
+      coupled flow(mesh_of(p), law, ldlt_solver<>{}, drained_at(face::y_max));
+      const std::vector<double> before(flow.net().arrays().volumes);
+      const volume_rates rates = rates_of_volume(flow.net(), {c.velocities, c.box.walls});
+      std::vector<vec> forces(p.grains.size());
+      const coupling_report first = flow.step(dt, p.grains, c.velocities, forces, c.box);
+      REQUIRE(first.ok());
+      move(p, c, dt);
+      REQUIRE(flow.step(dt, p.grains, c.velocities, forces, c.box).ok());  // takes the positions, measures
+      double sum = 0;
+      double changes = 0;
+      double missed = 0;
+      for (std::size_t i = 0; i < before.size(); ++i) {
+        const double change = flow.net().volume(pore_id(i)) - before[i];
+        sum += change;
+        changes += std::abs(change);
+        missed += std::abs(change - rates.values[i] * dt);
+      }
+      CHECK(first.fluid.squeezed == doctest::Approx(-sum).epsilon(1e-10));  // of a box with one piston: exactly
+      return missed / changes;
+    };
+    const double coarse = error(4e-3);
+    const double fine = error(2e-3);
+    MESSAGE("volume missed by a step of 0.002: " << fine << " of the change");
+    CHECK(fine < 0.01);
+    CHECK(coarse / fine == doctest::Approx(2).epsilon(0.03));
+  }
 }
