@@ -4,9 +4,8 @@
 //
 // The grains are moved by a small discrete-element simulator (support/dem.hpp), which stands for the one that you have.
 // When the load on the piston rises, water carries the whole of it at first; as it drains through the piston, the
-// grains
-// take over and the column settles. Terzaghi's theory says how fast, from two numbers that are measured on the same
-// grains: their permeability, by a steady flow, and their stiffness, by the same load step without water.
+// grains take over and the column settles. Terzaghi's theory says how fast, from two numbers that are measured on the
+// same grains: their permeability, by a steady flow, and their stiffness, by the same load step without water.
 // `consolidation --help` lists the options.
 #include "support/oedometer.hpp"
 #include "support/plot.hpp"
@@ -138,7 +137,7 @@ int main(int argc, char** argv) {
   app.add_option("--step", j.test.step, "of the load, over the stress")->capture_default_str();
   app.add_option("--slowness", j.test.slowness, "time of consolidation over that of a wave; sets the viscosity")
       ->capture_default_str();
-  app.add_option("--end", j.test.end, "time factor T at which the test ends")->capture_default_str();
+  app.add_option("--end", j.test.end, "time factor T at which the test ends, at least 0.05")->capture_default_str();
   app.add_option("--refresh-every", j.test.refresh_every, "steps between two computations of the conductances")
       ->capture_default_str();
   app.add_option("--rebuild-every", j.test.rebuild_every, "steps between two triangulations; 0: by strain alone")
@@ -146,12 +145,19 @@ int main(int argc, char** argv) {
   app.add_option("--out", j.out, "folder of the files")->capture_default_str();
   try {
     app.parse(argc, argv);
-    for (const auto& [name, value] : {std::pair{"--modulus", j.test.material.modulus},
-                                      std::pair{"--stress", j.test.stress}, std::pair{"--step", j.test.step},
-                                      std::pair{"--slowness", j.test.slowness}, std::pair{"--end", j.test.end}}) {
+    for (const auto& [name, value] :
+         {std::pair{"--modulus", j.test.material.modulus}, std::pair{"--slenderness", j.test.slenderness},
+          std::pair{"--stress", j.test.stress}, std::pair{"--step", j.test.step},
+          std::pair{"--slowness", j.test.slowness}, std::pair{"--end", j.test.end}}) {
       if (!(value > 0) || !std::isfinite(value)) {
-        throw tp::parameter_error(name, std::to_string(value), "a finite number above 0");
+        throw tp::parameter_error(name, tp::short_number(value), "a finite number above 0");
       }
+    }
+    if (j.test.end < 0.05) {  // the time of the first profile
+      throw tp::parameter_error("--end", tp::short_number(j.test.end), "at least 0.05");
+    }
+    if (j.test.refresh_every == 0) {
+      throw tp::parameter_error("--refresh-every", "0", "at least 1");
     }
     if (j.packing.empty() && j.test.grains < 50) {
       throw tp::parameter_error("--grains", std::to_string(j.test.grains), "at least 50");

@@ -108,8 +108,7 @@ class dem {
           }
           const bool piston = upper && k == 1;
           const double speed = velocities[i][k] - (piston ? piston_velocity : 0);
-          const double f =
-              contact_force(depth, upper ? -speed : speed, 2 * material_.modulus * r, masses[i]);
+          const double f = contact_force(depth, upper ? -speed : speed, 2 * material_.modulus * r, masses[i]);
           forces[i][k] += upper ? -f : f;
           piston_force += piston ? f : 0;
           base_force_ += !upper && k == 1 ? f : 0;
@@ -151,8 +150,7 @@ class dem {
   }
 
   /// Shortens the box evenly over its height, all grains with it, until the piston carries its load; then lets the
-  /// grains
-  /// come to rest. A piston alone would leave the column denser at one end.
+  /// grains come to rest. A piston alone would leave the column denser at one end.
   /// \return steps taken
   std::size_t compact(double tolerance) {
     constexpr double rate = 1e-4;  // per step

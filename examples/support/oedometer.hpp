@@ -61,14 +61,14 @@ void for_terms(double time, const F& f) {
 
 struct oedometer_options {
   std::size_t grains = 800;
-  double radius = 1e-3;       ///< mean [m]
-  double spread = 0.15;       ///< radii lie within (1 ± spread) × radius
-  double slenderness = 5;     ///< height over width, before the first load
-  double stress = 2e6;        ///< before the step [Pa]
-  double step = 0.01;         ///< of the load, over the stress before
-  double slowness = 50;       ///< time of consolidation H²/c_v over that of a wave H/c; chooses the viscosity
-  double end = 1.5;           ///< T at which the test ends
-  double time_step = 1;        ///< over that of the contacts
+  double radius = 1e-3;    ///< mean [m]
+  double spread = 0.15;    ///< radii lie within (1 ± spread) × radius
+  double slenderness = 5;  ///< height over width, before the first load
+  double stress = 2e6;     ///< before the step [Pa]
+  double step = 0.01;      ///< of the load, over the stress before
+  double slowness = 50;    ///< time of consolidation H²/c_v over that of a wave H/c; chooses the viscosity
+  double end = 1.5;        ///< T at which the test ends; from 0.05 on there is a profile
+  double time_step = 1;    ///< over that of the contacts
   std::size_t refresh_every = 200;
   double rebuild_strain = 0.01;
   std::size_t rebuild_every = 0;
@@ -87,8 +87,7 @@ struct oedometer_options {
 }
 
 /// Grains at rest under the first load. They have been loaded by three times the step before, and relieved: what slips
-/// has
-/// slipped, and the step itself is elastic.
+/// has slipped, and the step itself is elastic.
 [[nodiscard]] inline dem settled_column(tp::packing grains, const oedometer_options& o) {
   dem column(std::move(grains), o.material);
   column.load = o.stress * column.area();
@@ -102,9 +101,9 @@ struct oedometer_options {
 
 /// What is measured on the grains alone, and by a steady flow through them at rest.
 struct soil {
-  double height = 0;        ///< [m]
-  double area = 0;          ///< [m²]
-  double density = 0;       ///< of the grains with their pores, dry [kg/m³]
+  double height = 0;   ///< [m]
+  double area = 0;     ///< [m²]
+  double density = 0;  ///< of the grains with their pores, dry [kg/m³]
   double porosity = 0;
   double settlement = 0;    ///< final, of the load step without fluid [m]
   double modulus = 0;       ///< oedometric [Pa]
@@ -157,7 +156,7 @@ struct profile {
 };
 
 struct settlement_row {
-  double time;  ///< T
+  double time;     ///< T
   double settled;  ///< over the final settlement
   double theory;
 };
@@ -183,8 +182,7 @@ struct consolidation {
 
 /// Mean pressure over the load in equal layers of the height, from the base up: of the pores whose node (where the
 /// pressure is that of the pore; on the wall for pores at a wall) lies in the layer, by volume. Beside it the theory
-/// at the
-/// same nodes.
+/// at the same nodes.
 template <class Flow>
 [[nodiscard]] profile profile_of(const Flow& flow, double time, double load, std::size_t layers) {
   const tp::network& net = flow.net();
@@ -194,8 +192,8 @@ template <class Flow>
   for (std::size_t i = 0; i < net.pore_count(); ++i) {
     const tp::pore_id p(i);
     const double y = (flow.flow().system().nodes().position(net, p).y - b.lo.y) / b.size().y;
-    const auto layer = static_cast<std::size_t>(
-        std::clamp(y * static_cast<double>(layers), 0.0, static_cast<double>(layers) - 1));
+    const auto layer =
+        static_cast<std::size_t>(std::clamp(y * static_cast<double>(layers), 0.0, static_cast<double>(layers) - 1));
     out.pressure[layer] += net.volume(p) * flow.pressure()[p] / load;
     out.theory[layer] += net.volume(p) * terzaghi::pressure(time, std::clamp(1 - y, 0.0, 1.0));
     volume[layer] += net.volume(p);
@@ -250,8 +248,7 @@ template <class Flow>
     grains.push();
     tp::box_motion box{grains.bounds};
     box.walls[static_cast<std::size_t>(tp::face::y_max)].y = grains.piston_velocity;
-    const tp::coupling_report report =
-        flow.step(out.time_step, grains.grains, grains.velocities, grains.forces, box);
+    const tp::coupling_report report = flow.step(out.time_step, grains.grains, grains.velocities, grains.forces, box);
     out.unsolved += report.ok() ? 0U : 1U;
     grains.piston_force += flow.wall_forces()[static_cast<std::size_t>(tp::face::y_max)].y;
     last_volume = grains.volume();
