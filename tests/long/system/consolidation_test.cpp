@@ -2,8 +2,8 @@
 //
 // Campaigns of the coupling: Terzaghi's consolidation on tall columns (docs/campaigns/consolidation_<seed>.json), and
 // 100,000 coupled steps of grains that keep rearranging, triangulated anew all the time (coupled_steps.json). A
-// campaign
-// that has its file is not run again; the second one keeps what it has reached beside it and continues from there.
+// campaign that has its file is not run again; the second one keeps what it has reached beside it and continues from
+// there.
 #include "../../../examples/support/oedometer.hpp"
 
 #include <doctest/doctest.h>
@@ -94,6 +94,12 @@ bool load(const std::filesystem::path& path, progress& p, support::dem& d) {
 
 }  // namespace
 
+// The 3 % hold for the settlement at all times and for the root mean square over the profiles. A single layer of a
+// single column may miss by more. Terzaghi's column has one permeability and one stiffness all along; in a random
+// packing a layer of some 150 grains (a tenth of the column, 3.5 diameters high) has its own, and the
+// pressure in it follows them: it is the drop across the layers above, each with its own resistance. Two seeds show it: the worst of the fifty layers misses by 1.7 % with one and by 3.6 % with the
+// other (root mean squares 0.6 and 1.0 %), while the settlement, which sums over the column, misses by 1.9 % with both.
+// So the bound on one layer is 5 %.
 TEST_CASE("a tall column consolidates within 3 % of Terzaghi, in settlement and in pressure (root mean square)") {
   const std::filesystem::path folder = TETRAPORE_CAMPAIGN_DIR;
   std::filesystem::create_directories(folder);
@@ -167,21 +173,21 @@ TEST_CASE("100,000 coupled steps with triangulations anew lose no fluid, no numb
   const tp::fluid_ledger before = done.fluid;
   const std::size_t first = done.steps;
   const double dt = grains.time_step();
-  std::vector<double> added = flow.added_mass(dt);
-  const auto limit = [&](std::vector<double>& mass) {  // beside a closed throat the bound is infinite
-    for (std::size_t i = 0; i < mass.size(); ++i) {
-      mass[i] = std::min(mass[i], 20 * grains.masses[i]);
+  const auto added_mass = [&] {
+    std::vector<double> mass = flow.added_mass(dt);
+    for (const tp::grain_id g : flow.sealed_grains()) {  // a sealed pore is a spring, stiffer than the contacts
+      mass[g.index()] += 20 * grains.masses[g.index()];
     }
+    return mass;
   };
-  limit(added);
+  std::vector<double> added = added_mass();
   auto start = std::chrono::steady_clock::now();
   while (done.steps < wanted) {
     if (done.steps % 10 == 0 &&
         flow.rebuild_due({.every = 500, .strain = 0.02, .turned_volume = 1e-6}) != tp::rebuild_reason::none) {
       flow.rebuild(triangulate, grains.grains, grains.bounds);
       ++done.rebuilds;
-      added = flow.added_mass(dt);
-      limit(added);
+      added = added_mass();
     }
     // the load swings between a half and one and a half of the stress
     grains.load = stress * grains.area() * (1 + 0.5 * std::sin(2e-3 * static_cast<double>(done.steps)));
@@ -233,8 +239,8 @@ TEST_CASE("100,000 coupled steps with triangulations anew lose no fluid, no numb
                       << ",\n  \"piston_travel_over_height\": " << done.travel / grains.height()
                       << ",\n  \"largest_pressure\": " << done.largest_pressure
                       << ",\n  \"unsolved_steps\": " << done.unsolved << ",\n  \"resident_mb_early\": " << done.first_mb
-                      << ",\n  \"resident_mb_late\": " << done.last_mb
-                      << ",\n  \"seconds\": " << done.seconds << "\n}\n";
+                      << ",\n  \"resident_mb_late\": " << done.last_mb << ",\n  \"seconds\": " << done.seconds
+                      << "\n}\n";
   std::filesystem::rename(part, path);
   std::filesystem::remove(kept);
 }
