@@ -102,6 +102,7 @@ class direct_solver {
       const double scaled = system_.scaled_norm(residual_);
       const bool due = scaled > target || report.iterations < wanted || (wanted > 0 && left > 1e-12 * largest(x));
       if (!due || !(scaled > 0) || report.iterations >= options.max_iterations) {
+        report.error_estimate = scaled > 0 || start ? report.error_estimate : 0.0;  // nothing is left of the residual
         break;
       }
       if (!factor_.apply(residual_, correction_)) {
