@@ -48,7 +48,8 @@ struct coupling_options {
   /// Steps between two computations of the conductances and of the shares in which facets load grains. Volume rates and
   /// areas are always those of the present positions.
   std::size_t refresh_every = 1;
-  /// A warm start is the present pressure, across rebuilds too; before the first step only where the caller has set one.
+  /// A warm start is the present pressure, across rebuilds too; before the first step only where the caller has set
+  /// one.
   solve_options solve{.warm = true};
 };
 

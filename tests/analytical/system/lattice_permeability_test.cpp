@@ -42,7 +42,8 @@ permeability_tensor tensor_of(const packing& p) {
 
 TEST_CASE("the cells of a lattice that share a power centre are one node: its holes, however they are cut into cells") {
   // holes per sphere: a cube; six tetrahedra; two tetrahedra and an octahedron
-  for (const auto& [kind, holes] : {std::pair{lattice_kind::simple_cubic, 1U}, {lattice_kind::body_centred, 6U},
+  for (const auto& [kind, holes] : {std::pair{lattice_kind::simple_cubic, 1U},
+                                    {lattice_kind::body_centred, 6U},
                                     {lattice_kind::face_centred, 3U}}) {
     const packing p = lattice(kind, {3, 2, 2}, 0.5, {true, true, true});
     for (const double jitter : {0.0, 1e-15, 1e-9}) {

@@ -18,8 +18,8 @@
 #include <utility>
 #include <vector>
 
-// The conductances of a packing as they come, with their contrast stretched by a power, and with throats that are nearly
-// closed: every solver against the solution in extended precision.
+// The conductances of a packing as they come, with their contrast stretched by a power, and with throats that are
+// nearly closed: every solver against the solution in extended precision.
 
 using namespace tetrapore;
 

@@ -97,9 +97,9 @@ bool load(const std::filesystem::path& path, progress& p, support::dem& d) {
 // The 3 % hold for the settlement at all times and for the root mean square over the profiles. A single layer of a
 // single column may miss by more. Terzaghi's column has one permeability and one stiffness all along; in a random
 // packing a layer of some 150 grains (a tenth of the column, 3.5 diameters high) has its own, and the
-// pressure in it follows them: it is the drop across the layers above, each with its own resistance. Two seeds show it: the worst of the fifty layers misses by 1.7 % with one and by 3.6 % with the
-// other (root mean squares 0.6 and 1.0 %), while the settlement, which sums over the column, misses by 1.9 % with both.
-// So the bound on one layer is 5 %.
+// pressure in it follows them: it is the drop across the layers above, each with its own resistance. Two seeds show it:
+// the worst of the fifty layers misses by 1.7 % with one and by 3.6 % with the other (root mean squares 0.6 and 1.0 %),
+// while the settlement, which sums over the column, misses by 1.9 % with both. So the bound on one layer is 5 %.
 TEST_CASE("a tall column consolidates within 3 % of Terzaghi, in settlement and in pressure (root mean square)") {
   const std::filesystem::path folder = TETRAPORE_CAMPAIGN_DIR;
   std::filesystem::create_directories(folder);

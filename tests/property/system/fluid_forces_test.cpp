@@ -78,8 +78,8 @@ void add_triangle(sphere_moments& m, const vec3<double>& a, const vec3<double>& 
   }
 }
 
-/// The same over the sector that a cell has at its grain k. Split at the pole of its three directions, since the triangle
-/// of a flat cell is nearly half of the sphere.
+/// The same over the sector that a cell has at its grain k. Split at the pole of its three directions, since the
+/// triangle of a flat cell is nearly half of the sphere.
 sphere_moments moments_of_sector(const pore_body<double>& body, std::size_t k) {
   const auto towards = [&](std::size_t other) {
     const vec3<double> d = other < body.grain_count ? body.grains[other].centre - body.grains[k].centre

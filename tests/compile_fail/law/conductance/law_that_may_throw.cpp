@@ -6,8 +6,6 @@
 using answer = tetrapore::outcome<double, tetrapore::conductance_status>;
 
 struct mine {
-  answer conductance(const tetrapore::throat<double>&) const {
-    return {1.0, tetrapore::conductance_status::ok};
-  }
+  answer conductance(const tetrapore::throat<double>&) const { return {1.0, tetrapore::conductance_status::ok}; }
 };
 static_assert(tetrapore::conductance_law<mine>);
