@@ -62,6 +62,7 @@ refuses() {
 
 # every option ---------------------------------------------------------------------------------------------------------
 
+"$binary" --help >/dev/null  # the first start of a program waits for the disk, which its own seconds do not tell
 runs "defaults" beads.txt
 [ "$(value grains)" = 343 ] || fail "grains=$(value grains)"
 [ "$(value hidden)" = 0 ] || fail "hidden=$(value hidden)"
