@@ -17,7 +17,7 @@ enum class bridge_status : unsigned char {
   lopsided,     ///< absent: the symmetric bridge of equal grains has lost its stability: the liquid slides to one side
   flooded,      ///< refused: so much liquid, or so little suction, that no bridge ends on both surfaces
   not_covered,  ///< refused: the law does not cover this pair (a plane, unequal radii or angles, its fitted range)
-  invalid_input,  ///< refused: NaN, a negative volume, a radius or angle outside its domain, a gap that swallows a grain
+  invalid_input,  ///< refused: NaN, a negative volume, a radius, angle or gap outside its domain
   not_converged   ///< failed: the iteration did not reach its tolerance
 };
 
