@@ -5,6 +5,7 @@
 /// Layer 5, packings: what holds them, what they must satisfy, how they are made and measured.
 
 #include "tetrapore/packing/check.hpp"
+#include "tetrapore/packing/close_edges.hpp"
 #include "tetrapore/packing/lattice.hpp"
 #include "tetrapore/packing/neighbours.hpp"
 #include "tetrapore/packing/packing.hpp"

@@ -7,6 +7,7 @@
 #include "tetrapore/simplex/edge.hpp"
 #include "tetrapore/simplex/make_opening.hpp"
 #include "tetrapore/simplex/opening.hpp"
+#include "tetrapore/simplex/pair_store.hpp"
 #include "tetrapore/simplex/pore_body.hpp"
 #include "tetrapore/simplex/pore_volume.hpp"
 #include "tetrapore/simplex/throat.hpp"
