@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "tetrapore/law/bridge/soulie.hpp"
+
+namespace tetrapore::inline TETRAPORE_ABI {
+
+/// F = πσR (exp(A D/R + B) + C), v = V/R³: A = −1.1 v^(−0.53), B = −0.0082 ln v + 0.48, C = 0.0018 ln v + 0.078: equal
+/// spheres that the liquid wets fully. Soulié's form is this one with a contact angle and unequal radii.
+/// \par Units   surface tension [N/m], angle [rad], result [N]
+/// \par Source  Mikami, Kamiya & Horio 1998, Chem. Eng. Sci. 53, 1927, with its rupture
+template <class Rupture = mikami_rupture>
+struct mikami {
+  required<double> surface_tension;
+  Rupture rupture = {};
+
+  template <real T>
+  [[nodiscard]] outcome<bridge_pull<T>, bridge_status> bridge(const edge<T>& e, given_volume<T> liquid) const noexcept {
+    const bridge_status first = detail::admit_fit(e, liquid.value, surface_tension, 0.0);
+    if (first == bridge_status::ok && !detail::equal_radii(e)) {
+      return detail::no_pull<T>(bridge_status::not_covered);
+    }
+    return soulie<Rupture>{surface_tension, 0.0, rupture}.bridge(e, liquid);
+  }
+};
+
+}  // namespace tetrapore::inline TETRAPORE_ABI

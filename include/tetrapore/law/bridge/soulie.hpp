@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "tetrapore/law/bridge/rupture_fits.hpp"
+
+namespace tetrapore::inline TETRAPORE_ABI {
+
+/// F = πσ √(R₁R₂) (c + exp(a D/R + b)), R the larger radius, v = V/R³: a = −1.1 v^(−0.53),
+/// b = (−0.148 ln v − 0.96) θ² − 0.0082 ln v + 0.48, c = 0.0018 ln v + 0.078.
+/// \par Units   surface tension [N/m], angle [rad], result [N]
+/// \par Source  Soulié, Cherblanc, El Youssoufi & Saix 2006, Int. J. Numer. Anal. Methods Geomech. 30, 213; rupture as
+///              there, by Lian
+template <class Rupture = lian_rupture>
+struct soulie {
+  required<double> surface_tension;
+  double contact_angle = 0;
+  Rupture rupture = {};
+
+  template <real T>
+  [[nodiscard]] outcome<bridge_pull<T>, bridge_status> bridge(const edge<T>& e, given_volume<T> liquid) const noexcept {
+    using std::exp;
+    using std::log;
+    using std::sqrt;
+    const bridge_status first = detail::admit_fit(e, liquid.value, surface_tension, contact_angle);
+    if (first != bridge_status::ok) {
+      return detail::no_pull<T>(first);
+    }
+    const T radius = e.radius1 < e.radius2 ? e.radius2 : e.radius1;
+    const T reduced = liquid.value / (radius * radius * radius);
+    if (e.with_plane() || contact_angle > largest_angle || !detail::within(reduced, 1e-6, 0.1)) {
+      return detail::no_pull<T>(bridge_status::not_covered);
+    }
+    if (value_of(e.gap) > rupture.gap(e, liquid.value, contact_angle)) {
+      return detail::no_pull<T>(bridge_status::ruptured);
+    }
+    const auto number = [](double x) { return detail::fit_number<T>(x); };
+    const double square = contact_angle * contact_angle;
+    const T l = log(reduced);
+    const T a = number(-1.1) * exp(number(-0.53) * l);
+    const T b = number(-0.96 * square + 0.48) + number(-0.148 * square - 0.0082) * l;
+    const T c = number(0.0018) * l + number(0.078);
+    const T scale = number(pi<double> * surface_tension);
+    return {{scale * sqrt(e.radius1 * e.radius2) * (c + exp(a * e.gap / radius + b))}, bridge_status::ok};
+  }
+
+ private:
+  static constexpr double largest_angle = 50 * pi<double> / 180 * (1 + 1e-12);
+};
+
+}  // namespace tetrapore::inline TETRAPORE_ABI

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "tetrapore/law/bridge/rupture_fits.hpp"
+
+namespace tetrapore::inline TETRAPORE_ABI {
+
+/// The fit of Willett's appendix: ln(F / 2πRσ) = f₁ − f₂ exp(f₃ ln S + f₄ ln² S), S = (D/2) / √(V/R), each f a
+/// polynomial in ln(V/R³) and θ. Unequal radii by the radius of Derjaguin, as in the paper.
+/// \par Units   surface tension [N/m], angle [rad], result [N]
+/// \par Source  Willett et al. 2000, Langmuir 16, 9396, appendix; rupture Eq. (15)
+template <class Rupture = willett_rupture>
+struct willett {
+  required<double> surface_tension;
+  double contact_angle = 0;
+  Rupture rupture = {};
+
+  template <real T>
+  [[nodiscard]] outcome<bridge_pull<T>, bridge_status> bridge(const edge<T>& e, given_volume<T> liquid) const noexcept {
+    using std::exp;
+    using std::log;
+    using std::sqrt;
+    const bridge_status first = detail::admit_fit(e, liquid.value, surface_tension, contact_angle);
+    if (first != bridge_status::ok) {
+      return detail::no_pull<T>(first);
+    }
+    const T radius = detail::derjaguin_radius(e);
+    const T reduced = liquid.value / (radius * radius * radius);
+    if (e.with_plane() || contact_angle > largest_angle || !detail::within(reduced, 1e-3, 0.1)) {
+      return detail::no_pull<T>(bridge_status::not_covered);
+    }
+    if (value_of(e.gap) > rupture.gap(e, liquid.value, contact_angle)) {
+      return detail::no_pull<T>(bridge_status::ruptured);
+    }
+    const T l = log(reduced);
+    T exponent = f(-0.44507, 0.050832, -1.1466) + (f(-0.1119, -0.000411, -0.1490) +
+                 (f(-0.012101, -0.0036456, -0.01255) + f(-0.0005, -0.0003505, -0.00029076) * l) * l) * l;
+    if (e.gap > T(0)) {
+      const T f2 = f(1.9222, -0.57473, -1.2918) + (f(-0.0668, -0.1201, -0.22574) +
+                   f(-0.0013375, -0.0068988, -0.01137) * l) * l;
+      const T f3 = f(1.268, -0.01396, -0.23566) + (f(0.198, 0.092, -0.06418) +
+                   (f(0.02232, 0.02238, -0.009853) + f(0.0008585, 0.001318, -0.00053) * l) * l) * l;
+      const T f4 = f(-0.010703, 0.073776, -0.34742) + (f(0.03345, 0.04543, -0.09056) +
+                   f(0.0018574, 0.004456, -0.006257) * l) * l;
+      const T s = log(e.gap / (T(2) * sqrt(liquid.value / radius)));
+      exponent = exponent - f2 * exp((f3 + f4 * s) * s);
+    }
+    const T scale = detail::fit_number<T>(2 * pi<double> * surface_tension);
+    return {{scale * radius * exp(exponent)}, bridge_status::ok};
+  }
+
+ private:
+  static constexpr double largest_angle = 50 * pi<double> / 180 * (1 + 1e-12);  // the paper's, whichever way rounded
+
+  /// The coefficient of a power of ln(V/R³), itself a polynomial in the contact angle.
+  template <std::floating_point N>
+  [[nodiscard]] constexpr N at_angle(N a, N b, N c) const noexcept {
+    const N angle = static_cast<N>(contact_angle);
+    return a + (b + c * angle) * angle;
+  }
+  struct coefficient {
+    double value;
+    template <real T>
+    [[nodiscard]] friend T operator*(coefficient c, const T& x) noexcept {
+      return detail::fit_number<T>(c.value) * x;
+    }
+    template <real T>
+    [[nodiscard]] friend T operator+(coefficient c, const T& x) noexcept {
+      return detail::fit_number<T>(c.value) + x;
+    }
+  };
+  [[nodiscard]] constexpr coefficient f(double a, double b, double c) const noexcept { return {at_angle(a, b, c)}; }
+};
+
+/// F = 2πRσ cos θ / (1 + 2.1 S + 10 S²), S = (D/2) / √(V/R): the fit for little liquid. Unequal radii by the radius of
+/// Derjaguin, as in the paper.
+/// \par Units   surface tension [N/m], angle [rad], result [N]
+/// \par Source  Willett et al. 2000, Langmuir 16, 9396, Eq. (12); rupture Eq. (15)
+template <class Rupture = willett_rupture>
+struct willett_small {
+  required<double> surface_tension;
+  double contact_angle = 0;
+  Rupture rupture = {};
+
+  template <real T>
+  [[nodiscard]] outcome<bridge_pull<T>, bridge_status> bridge(const edge<T>& e, given_volume<T> liquid) const noexcept {
+    using std::sqrt;
+    const bridge_status first = detail::admit_fit(e, liquid.value, surface_tension, contact_angle);
+    if (first != bridge_status::ok) {
+      return detail::no_pull<T>(first);
+    }
+    const T radius = detail::derjaguin_radius(e);
+    const T reduced = liquid.value / (radius * radius * radius);
+    if (e.with_plane() || contact_angle > largest_angle || !detail::within(reduced, 0, 0.1)) {
+      return detail::no_pull<T>(bridge_status::not_covered);
+    }
+    if (value_of(e.gap) > rupture.gap(e, liquid.value, contact_angle)) {
+      return detail::no_pull<T>(bridge_status::ruptured);
+    }
+    const T s = e.gap / (T(2) * sqrt(liquid.value / radius));
+    const T scale = detail::fit_number<T>(2 * pi<double> * surface_tension * std::cos(contact_angle));
+    return {{scale * radius / (T(1) + (detail::fit_number<T>(2.1) + T(10) * s) * s)}, bridge_status::ok};
+  }
+
+ private:
+  static constexpr double largest_angle = 50 * pi<double> / 180 * (1 + 1e-12);
+};
+
+}  // namespace tetrapore::inline TETRAPORE_ABI
