@@ -1,0 +1,378 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "tetrapore/law/bridge/solve_profile.hpp"
+
+/// \file
+/// The bridges of a pair as a curve: from the bridge at contact along the gap, through the fold where it ends.
+/// \par Source  pseudo-arclength continuation: Keller, in Applications of Bifurcation Theory, Academic Press (1977),
+///              359; folds of bridges: Lian, Thornton & Adams, J. Colloid Interface Sci. 161, 138 (1993)
+
+namespace tetrapore::inline TETRAPORE_ABI {
+namespace detail {
+
+enum class along : unsigned char { gap, value };
+
+/// A bridge on the curve, with the direction in which the curve goes on.
+template <std::floating_point T>
+struct waypoint {
+  profile<T> u;
+  sample<T> at;
+  T direction[4];  ///< of the unknowns, of length 1
+  T reach;         ///< the gap, or the volume or k
+  T slope;         ///< of `reach` along the curve
+  bool sound;
+};
+
+template <bool Equal, std::floating_point T>
+class path {
+ public:
+  static constexpr int n = unknowns<Equal>;
+  static constexpr int step_cap = 400;
+  static constexpr int locate_cap = 80;
+
+  path(const surface_pair<T>& pair, const demand<T>& fixed, along what) noexcept
+      : pair_(pair), fixed_(fixed), what_(what) {}
+
+  /// The waypoint at a solution; the curve leaves it as `reach` grows (`sense` 1) or falls (−1).
+  template <int N>
+  [[nodiscard]] waypoint<T> begin(const profile<T>& u, int sense) const noexcept {
+    waypoint<T> p;
+    p.u = u;
+    choose_chart<Equal>(pair_, p.u);
+    settle<N>(p, nullptr, sense);
+    return p;
+  }
+
+  /// The waypoint at a distance along the curve, or one that is not sound.
+  template <int N>
+  [[nodiscard]] waypoint<T> advance(const waypoint<T>& from, const T& distance, int* iterations) const noexcept {
+    using std::isfinite;
+    waypoint<T> p;
+    p.u = from.u;
+    p.sound = false;
+    T to[4];
+    for (int i = 0; i < 4; ++i) {
+      to[i] = from.direction[i] * (i == 0 ? weight(from) : T(1));
+    }
+    move<Equal>(p.u, from.at.scale, to, distance);
+    T before = T(1);
+    for (int iteration = 0; iteration < 12; ++iteration) {
+      p.at = sample_of<N, Equal>(pair_, p.u);
+      if (!p.at.sound) {
+        return p;
+      }
+      matrix<T, n, n + 1> a;
+      for (int row = 0; row < n; ++row) {
+        for (int column = 0; column < n; ++column) {
+          a[row][column] = p.at.by[row][column];
+        }
+      }
+      a[match_row][n] = -p.at.match[0];
+      if constexpr (!Equal) {
+        a[second_match_row][n] = -p.at.match[1];
+      }
+      const T inverse = T(1) / p.at.scale;
+      a[gap_row][n] = fixed_.gap * inverse - p.at.gap;
+      if (fixed_.by == bridge_control::volume) {
+        a[volume_row][n] = fixed_.value * inverse * inverse * inverse - p.at.volume;
+      } else {
+        a[volume_row][n] = (fixed_.value - p.u.k) * p.at.scale;
+        a[volume_row][0] = T(1);
+        for (int column = 1; column < n; ++column) {
+          a[volume_row][column] = T(0);
+        }
+      }
+      const int free = what_ == along::gap ? gap_row : volume_row;
+      for (int column = 0; column < n; ++column) {
+        a[free][column] = from.direction[column] * (column == 0 ? T(1) / weight(p) : T(1));
+      }
+      a[free][n] = T(0);
+      if (!eliminate<n, 1, T>(a)) {
+        return p;
+      }
+      T step[4]{};
+      T size = std::abs(a[0][n]) / weight(p);
+      for (int i = 0; i < n; ++i) {
+        step[i] = a[i][n];
+        if (i > 0) {
+          size = std::max(size, std::abs(step[i]));
+        }
+      }
+      if (!isfinite(size) || size > T(0.5)) {
+        return p;
+      }
+      move<Equal>(p.u, p.at.scale, step, T(1));
+      *iterations = iteration + 1;
+      const T gain = size / before;
+      if (size < T(20) * std::numeric_limits<T>::epsilon() ||
+          (iteration > 0 && size * gain * gain < T(4) * std::numeric_limits<T>::epsilon() && size < T(1e-3)) ||
+          (iteration > 2 && size < T(1e-8) && gain > T(0.3))) {
+        choose_chart<Equal>(pair_, p.u);
+        settle<N>(p, &from, 0);
+        return p;
+      }
+      before = size;
+    }
+    return p;
+  }
+
+ private:
+  surface_pair<T> pair_;
+  demand<T> fixed_;
+  along what_;
+
+  [[nodiscard]] static T weight(const waypoint<T>& p) noexcept { return T(1) + std::abs(p.u.k) * p.at.scale; }
+
+  /// Direction, reach and slope at a solution.
+  template <int N>
+  void settle(waypoint<T>& p, const waypoint<T>* from, int sense) const noexcept {
+    using std::isfinite;
+    using std::sqrt;
+    p.at = sample_of<N, Equal>(pair_, p.u);
+    p.sound = p.at.sound;
+    if (!p.sound) {
+      return;
+    }
+    T step[4];
+    T by_gap[4];
+    T by_value[4];
+    p.sound = linearise<Equal>(p.at, p.u, fixed_, step, by_gap, by_value);
+    const T (&along_curve)[4] = what_ == along::gap ? by_gap : by_value;
+    T unit = p.at.scale;
+    if (what_ == along::value) {
+      unit = fixed_.by == bridge_control::volume ? unit * unit * unit : T(1) / unit;
+    }
+    T square(0);
+    T overlap(0);
+    for (int i = 0; i < 4; ++i) {
+      const T c = along_curve[i] / (i == 0 ? weight(p) : T(1));
+      p.direction[i] = c;
+      square += c * c;
+      // the extent changes its meaning with the chart
+      if (from != nullptr && (i != 1 || p.u.by == from->u.by)) {
+        overlap += c * from->direction[i];
+      }
+    }
+    const T size = sqrt(square);
+    p.sound = p.sound && isfinite(size) && size > T(0);
+    const bool back = from != nullptr ? overlap < T(0) : sense < 0;
+    const T factor = (back ? T(-1) : T(1)) / size;
+    for (T& c : p.direction) {
+      c *= factor;
+    }
+    p.slope = factor * unit;
+    if (what_ == along::gap) {
+      p.reach = p.at.gap * p.at.scale;
+    } else {
+      p.reach = fixed_.by == bridge_control::volume ? p.at.volume * p.at.scale * p.at.scale * p.at.scale : p.u.k;
+    }
+  }
+};
+
+/// Why a march ended.
+enum class arrival : unsigned char { at_target, at_fold, at_limit, lost };
+
+template <std::floating_point T>
+struct journey {
+  waypoint<T> end;  ///< at the target or the fold
+  arrival how;
+  waypoint<T> first_slide;  ///< where the circles of an equal pair begin to slide together, if they do
+  bool slides;
+};
+
+/// λ's rate by the filling angle at the first circle, of one sign as long as the circles hold.
+template <std::floating_point T>
+[[nodiscard]] inline T hold(const waypoint<T>& p) noexcept {
+  return p.at.turn[0] * p.at.cosine[0];
+}
+
+/// Follows the curve from `start` until `reach` is the target or turns back. `sense` is that of the start.
+template <int N, bool Equal, std::floating_point T>
+[[nodiscard]] inline journey<T> follow(const path<Equal, T>& along_path, waypoint<T> from, const T& target,
+                                       int sense) noexcept {
+  const T sign = sense < 0 ? T(-1) : T(1);
+  journey<T> trip;
+  trip.end = from;
+  trip.how = arrival::lost;
+  trip.slides = false;
+  if (!from.sound) {
+    return trip;
+  }
+  T h = T(0.1);
+  int iterations = 0;
+  for (int step = 0; step < path<Equal, T>::step_cap; ++step) {
+    if (!(sign * (target - from.reach) > T(0))) {
+      trip.end = from;
+      trip.how = arrival::at_target;
+      return trip;
+    }
+    const waypoint<T> next = along_path.template advance<N>(from, h, &iterations);
+    if (!next.sound || iterations > 6) {
+      h *= T(0.4);
+      if (h < T(1e-7)) {
+        trip.end = from;
+        return trip;
+      }
+      continue;
+    }
+    const bool passed = sign * (next.reach - target) >= T(0);
+    const bool folded = !(sign * next.slope > T(0));
+    if (!trip.slides && Equal && hold(from) > T(0) && hold(next) <= T(0) && !folded) {
+      T low(0);
+      T high = h;
+      waypoint<T> at_low = from;
+      waypoint<T> at_high = next;
+      waypoint<T> mid = next;
+      for (int i = 0; i < path<Equal, T>::locate_cap && high - low > T(4) * std::numeric_limits<T>::epsilon() * h;
+           ++i) {
+        const T share = hold(at_low) / (hold(at_low) - hold(at_high));
+        const T by_secant = low + share * (high - low);
+        const T tau = i % 3 == 2 ? T(0.5) * (low + high) : by_secant;
+        mid = along_path.template advance<N>(from, tau, &iterations);
+        if (!mid.sound) {
+          break;
+        }
+        if (std::abs(hold(mid)) < T(8) * std::numeric_limits<T>::epsilon()) {
+          break;
+        }
+        if (hold(mid) > T(0)) {
+          low = tau;
+          at_low = mid;
+        } else {
+          high = tau;
+          at_high = mid;
+        }
+      }
+      if (mid.sound) {
+        trip.first_slide = mid;
+        trip.slides = true;
+      }
+    }
+    if (!passed && !folded) {
+      from = next;
+      h = std::min(h * (iterations <= 3 ? T(1.6) : T(1)), T(0.6));
+      continue;
+    }
+    // between `from`, which lies before, and `next`: the fold first, then the target if it lies before the fold
+    T low(0);
+    T high = h;
+    waypoint<T> at_low = from;
+    waypoint<T> at_high = next;
+    if (folded) {
+      for (int i = 0; i < path<Equal, T>::locate_cap; ++i) {
+        const T a = sign * at_low.slope;
+        const T b = sign * at_high.slope;
+        const T tau = i % 3 == 2 ? T(0.5) * (low + high) : low + (high - low) * a / (a - b);
+        const waypoint<T> mid = along_path.template advance<N>(from, tau, &iterations);
+        if (!mid.sound) {
+          return trip;
+        }
+        if (sign * mid.slope > T(0)) {
+          low = tau;
+          at_low = mid;
+        } else {
+          high = tau;
+          at_high = mid;
+        }
+        const T least = std::min(std::abs(at_low.slope), std::abs(at_high.slope));
+        if (sign * (mid.reach - target) >= T(0) ||
+            least * (high - low) < T(0.1) * std::numeric_limits<T>::epsilon() * std::abs(mid.reach)) {
+          break;
+        }
+      }
+      const waypoint<T>& top = sign * (at_high.reach - at_low.reach) > T(0) ? at_high : at_low;
+      if (sign * (top.reach - target) < T(0)) {
+        trip.end = top;
+        trip.how = arrival::at_fold;
+        return trip;
+      }
+      if (sign * (at_low.reach - target) >= T(0)) {
+        high = low;
+        at_high = at_low;
+        low = T(0);
+        at_low = from;
+      }
+    }
+    waypoint<T> mid = at_low;
+    for (int i = 0; i < path<Equal, T>::locate_cap; ++i) {
+      const T a = sign * (target - at_low.reach);
+      const T b = sign * (at_high.reach - target);
+      const T share = i % 3 == 2 ? T(0.5) : a / (a + b);
+      const T tau = low + (high - low) * share;
+      mid = along_path.template advance<N>(from, tau, &iterations);
+      if (!mid.sound) {
+        return trip;
+      }
+      if (std::abs(mid.reach - target) < T(1e-3) * std::abs(sign * mid.slope) * T(0.1) * h ||
+          std::abs(mid.reach - target) <= T(4) * std::numeric_limits<T>::epsilon() * std::abs(target)) {
+        break;
+      }
+      if (sign * (mid.reach - target) < T(0)) {
+        low = tau;
+        at_low = mid;
+      } else {
+        high = tau;
+        at_high = mid;
+      }
+    }
+    trip.end = mid;
+    trip.how = arrival::at_target;
+    return trip;
+  }
+  trip.end = from;
+  return trip;
+}
+
+/// A bridge from nothing: at contact from little liquid (or a high suction) to the value asked, then along the gap.
+template <int N, bool Equal, std::floating_point T>
+[[nodiscard]] inline journey<T> travel(const surface_pair<T>& pair, const demand<T>& d, const T& gap_limit) noexcept {
+  journey<T> trip;
+  trip.how = arrival::lost;
+  trip.slides = false;
+  demand<T> at_contact{T(0), d.value, d.by};
+  const T curvature = pair.side[0].curvature + pair.side[1].curvature;
+  const T wetting = pair.side[0].cosine + pair.side[1].cosine;
+  const auto easy = [&](const T& circle) {
+    return d.by == bridge_control::volume ? pi<T> * circle * circle * circle * circle * curvature / T(4)
+                                          : wetting / (curvature * circle * circle);
+  };
+  const bool by_volume = d.by == bridge_control::volume;
+  T circle = T(0.5) * wetting / curvature;
+  found<T> f;
+  f.converged = false;
+  for (int i = 0; i < 12 && !f.converged; ++i, circle *= T(0.4)) {
+    const T value = easy(circle);
+    at_contact.value = by_volume ? std::min(value, d.value) : std::max(value, d.value);
+    f = newton<N, Equal>(pair, at_contact, first_guess<Equal>(pair, at_contact), 12);
+    if (f.converged) {
+      const auto index = index_of<Equal>(pair, f, d.by);
+      f.converged = (by_volume ? index.at_volume : index.at_suction) == 0;
+    }
+  }
+  if (!f.converged) {
+    return trip;
+  }
+  profile<T> u = f.u;
+  if (at_contact.value != d.value) {
+    const path<Equal, T> filling(pair, at_contact, along::value);
+    const int sense = by_volume ? 1 : -1;
+    const auto filled = follow<N>(filling, filling.template begin<N>(u, sense), d.value, sense);
+    if (filled.how != arrival::at_target) {
+      trip.how = filled.how == arrival::at_fold ? arrival::at_limit : arrival::lost;
+      return trip;
+    }
+    at_contact.value = d.value;
+    f = newton<N, Equal>(pair, at_contact, filled.end.u, 12);
+    if (!f.converged) {
+      return trip;
+    }
+    u = f.u;
+  }
+  const path<Equal, T> opening(pair, at_contact, along::gap);
+  const int sense = gap_limit < T(0) ? -1 : 1;
+  return follow<N>(opening, opening.template begin<N>(u, sense), gap_limit, sense);
+}
+
+}  // namespace detail
+}  // namespace tetrapore::inline TETRAPORE_ABI

@@ -1,0 +1,503 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "tetrapore/law/bridge/gauss_rule.hpp"
+
+#include <array>
+#include <cmath>
+
+/// \file
+/// The profile of a bridge, a piece of a Delaunay curve between two wetted surfaces, with all first derivatives.
+///
+/// With k half the mean curvature p_c / 2σ, φ the slope of the profile and s its arc length, z = r exp(iφ) obeys
+/// 1 + 2kz ∝ exp(2iks): its modulus p is constant, the force is 2πσλ with λ = Re z + k |z|² = (p² − 1)/4k, and the
+/// profile has its extremum r0 = (p − 1)/2k where z is real.
+/// \par Source  Delaunay, J. Math. Pures Appl. 6, 309 (1841); Kenmotsu, Tôhoku Math. J. 32, 147 (1980), for the complex
+///              form; equations derived here
+
+namespace tetrapore::inline TETRAPORE_ABI {
+namespace detail {
+
+/// A surface that the liquid wets: a sphere, or a plane of curvature 0.
+template <std::floating_point T>
+struct wetted_surface {
+  T curvature;
+  T cosine;  ///< of the contact angle
+  T sine;
+};
+
+template <std::floating_point T>
+struct surface_pair {
+  std::array<wetted_surface<T>, 2> side;
+  bool equal;  ///< both sides are the same: the bridge is its own mirror image
+};
+
+/// Where the profile meets a surface, by w = (2/curvature) tan(half of the filling angle): regular on a plane, where w
+/// is the radius of the contact circle, and up to a filling angle of 180°.
+template <std::floating_point T>
+struct contact_circle {
+  T radius;
+  T height;      ///< of the wetted cap
+  T cap;         ///< volume of the wetted cap
+  T cap_cosine;  ///< of the filling angle δ
+  T cap_sine;
+  T sine;  ///< of δ + θ, the angle between the profile and the plane of the circle
+  T cosine;
+
+  contact_circle(const wetted_surface<T>& on, const T& w) noexcept {
+    const T q = T(0.5) * on.curvature * w;
+    const T share = T(1) / (T(1) + q * q);
+    radius = w * share;
+    cap_cosine = (T(1) - q * q) * share;
+    cap_sine = T(2) * q * share;
+    const T level = T(0.5) * w * radius;  // radius of the sphere × height of the cap
+    height = on.curvature * level;
+    cap = (pi<T> / T(3)) * height * level * (T(2) + cap_cosine);
+    sine = cap_sine * on.cosine + cap_cosine * on.sine;
+    cosine = cap_cosine * on.cosine - cap_sine * on.sine;
+  }
+};
+
+/// sinh²(√z) for z > 0 and −sin²(√−z) for z < 0 at z × square[j].
+template <std::floating_point T, std::size_t N>
+inline void squared_sines(const T& z, const std::array<T, N>& square, std::array<T, N>& result) noexcept {
+  constexpr int terms = std::numeric_limits<T>::digits > 53 ? 15 : 12;
+  constexpr auto coefficient = [] {
+    std::array<T, static_cast<std::size_t>(terms)> c{};
+    long double term = 1;  // 4^n / 2 (2n)!
+    for (int n = 2; n <= terms + 1; ++n) {
+      c[static_cast<std::size_t>(n - 2)] = static_cast<T>(term);
+      term *= 4.0L / static_cast<long double>((2 * n - 1) * (2 * n));
+    }
+    return c;
+  }();
+  T scale = z * T(0.0625);
+  int doublings = 2;
+  while (scale > T(1) && doublings < 16) {
+    scale *= T(0.25);
+    ++doublings;
+  }
+  for (std::size_t j = 0; j < N; ++j) {
+    const T x = scale * square[j];
+    T sum = coefficient[static_cast<std::size_t>(terms - 1)];
+    for (int n = terms - 2; n >= 0; --n) {
+      sum = sum * x + coefficient[static_cast<std::size_t>(n)];
+    }
+    result[j] = sum * x;
+  }
+  for (int d = 0; d < doublings; ++d) {
+    for (std::size_t j = 0; j < N; ++j) {
+      result[j] = T(4) * result[j] * (T(1) + result[j]);
+    }
+  }
+}
+
+/// How the unknowns are counted. Unknowns: k, then `extent`, then w of each contact circle.
+enum class chart : unsigned char {
+  from_extremum,  ///< extent is the radius of the neck, real or virtual, from which both sides are measured
+  from_contact    ///< extent is the arc length from the first circle: to the mirror plane if equal, else to the second
+};
+
+/// The unknowns of a profile.
+template <std::floating_point T>
+struct profile {
+  T k;
+  T extent;
+  std::array<T, 2> w;
+  chart by;
+};
+
+/// What the equations of a profile are at a point, and their derivatives by (scale × k, ln extent, ln w1, ln w2).
+/// Rows: the contact condition of the first circle, the gap, the volume, the contact condition of the second. Gap,
+/// volume and λ are in units of the scale.
+template <std::floating_point T>
+struct sample {
+  T scale;
+  T match[2];
+  T gap;
+  T volume;
+  T lambda;
+  T by[4][4];       ///< rows as above
+  T lambda_by[4];
+  T turn[2];        ///< the sign of ∂λ/∂δ at each circle, k constant: negative where the circle slides
+  T cosine[2];      ///< of δ + θ
+  T modulus;        ///< p, negative on the side of a bulge
+  T span;           ///< |2k| × arc length
+  bool sound;       ///< false: no such profile
+};
+
+inline constexpr int match_row = 0;
+inline constexpr int gap_row = 1;
+inline constexpr int volume_row = 2;
+inline constexpr int second_match_row = 3;
+
+/// Of the two sides of a bridge seen from its neck, one: x, the distance to the circle, and the volume.
+template <int N, std::floating_point T>
+[[nodiscard]] inline bool add_side(sample<T>& s, const wetted_surface<T>& on, const T& a, const T& p, const T& root_p,
+                                   const T& r0, const T& w, int side) noexcept {
+  using std::asinh;
+  using std::atan;
+  using std::sqrt;
+  const contact_circle<T> at(on, w);
+  const T inverse = T(1) / r0;
+  const T rho = at.radius * inverse;
+  const T g = at.sine;
+  const T c = at.cosine;
+  const T base = T(1) + a + a * rho * g;
+  if (!(base > T(0.02) * p)) {
+    return false;
+  }
+  // t = tan(ks)/k, σ = sin(ks)/k, both over r0
+  const T per_base = T(1) / base;
+  const T t = rho * c * per_base;
+  const T t_a = -t * (T(1) + rho * g) * per_base;
+  const T t_rho = (c - t * a * g) * per_base;
+  const T t_beta = -rho * (g + t * a * c) * per_base;
+  const T square = T(1) + a * a * t * t;
+  const T cosine = T(1) / sqrt(square);
+  const T sine = t * cosine;
+  const auto& rule = gauss<T, N>;
+  std::array<T, static_cast<std::size_t>(N)> q;
+  T x;
+  T x_a;
+  T x_m;
+  T v;
+  T v_a;
+  T v_m;
+  T m_t;
+  T m_a;
+  const T ends = p * sine * sine;  // (r/r0)² − 1 at the circle
+  const bool hyperbolic = a < T(2) && std::abs(a * sine) < T(0.8);
+  T x0(0);
+  T x1(0);
+  T v0(0);
+  T v1(0);
+  if (hyperbolic) {
+    // r = r0 cosh m
+    const T y = root_p * sine;
+    const T m = asinh(y);
+    const T per_cosh = T(1) / sqrt(T(1) + ends);
+    const T cube = cosine * cosine * cosine;
+    m_t = root_p * cube * per_cosh;
+    m_a = (sine / root_p - root_p * a * t * t * t * cube) * per_cosh;
+    const T ratio = a * a / p;
+    const T half_ratio_a = a * (T(1) + a) / (p * p);
+    squared_sines(m * m, rule.square, q);
+    for (std::size_t j = 0; j < static_cast<std::size_t>(N); ++j) {
+      const T inner = T(1) / (T(1) - ratio * q[j]);
+      const T f = rule.weight[j] * sqrt(inner);
+      const T value = (T(1) - a * q[j]) * f;
+      const T slope = q[j] * (half_ratio_a * value * inner - f);
+      x0 += value;
+      x1 += slope;
+      v0 += q[j] * value;
+      v1 += q[j] * slope;
+    }
+    const T front = m / root_p;
+    x = front * x0;
+    x_a = front * (x1 - x0 / p);
+    v = pi<T> * front * (x0 + v0);
+    v_a = pi<T> * front * (x1 + v1 - (x0 + v0) / p);
+    x_m = (T(1) - a * ends) / (root_p * cosine);
+    v_m = pi<T> * (T(1) + ends) * x_m;
+  } else {
+    // the angle m = ks
+    const T m = atan(a * t);
+    m_t = a / square;
+    m_a = t / square;
+    const T per_a = T(1) / a;
+    const T ratio = -p * per_a * per_a;
+    const T rate = T(-2) * (T(1) + a) / (a * p);
+    squared_sines(-m * m, rule.square, q);
+    for (std::size_t j = 0; j < static_cast<std::size_t>(N); ++j) {
+      const T e = ratio * q[j];  // (r/r0)² − 1
+      const T e_a = rate * e;
+      const T size = T(1) + e;
+      const T f = rule.weight[j] / sqrt(size);
+      const T n = T(1) - a * e;
+      const T n_a = -e - a * e_a;
+      const T half = T(0.5) * n * e_a;
+      x0 += n * f;
+      x1 += (n_a - half / size) * f;
+      v0 += n * f * size;
+      v1 += (n_a * size + half) * f;
+    }
+    const T front = m * per_a;
+    x = front * x0;
+    x_a = front * (x1 - x0 * per_a);
+    v = pi<T> * front * v0;
+    v_a = pi<T> * front * (v1 - v0 * per_a);
+    x_m = (T(1) - a * ends) * per_a / sqrt(T(1) + ends);
+    v_m = pi<T> * (T(1) + ends) * x_m;
+  }
+  const T reach_a = m_t * t_a + m_a;  // of m, along (a, ln r0 at constant k, ln w)
+  const T reach_rho = m_t * t_rho;
+  const T reach_l = a * reach_a - rho * reach_rho;
+  const T rho_w = rho * at.cap_cosine;
+  const T reach_w = reach_rho * rho_w + m_t * t_beta * at.cap_sine;
+  const T height = at.height * inverse;
+  const T rise = height * (T(1) + at.cap_cosine);
+  const T slide = g + T(2) * a * rho;
+  const T turn = slide * at.cap_cosine + c * at.cap_sine;
+  const int row = side == 0 ? match_row : second_match_row;
+  const int own = 2 + side;
+  s.match[side] = rho * g + a * rho * rho - T(1) - a;
+  s.by[row][0] = rho * rho - T(1);
+  s.by[row][1] = a * (rho * rho - T(1)) - rho * slide;
+  s.by[row][own] = rho * turn;
+  s.by[row][5 - own] = T(0);
+  s.gap += x - height;
+  s.by[gap_row][0] += x_a + x_m * reach_a;
+  s.by[gap_row][1] += x + a * x_a + x_m * reach_l;
+  s.by[gap_row][own] = x_m * reach_w - rise;
+  s.volume += v - at.cap * inverse * inverse * inverse;
+  s.by[volume_row][0] += v_a + v_m * reach_a;
+  s.by[volume_row][1] += T(3) * v + a * v_a + v_m * reach_l;
+  s.by[volume_row][own] = v_m * reach_w - pi<T> * rho * rho * rise;
+  s.turn[side] = turn;
+  s.cosine[side] = c;
+  return true;
+}
+
+template <int N, bool Equal, std::floating_point T>
+[[nodiscard]] inline sample<T> sample_from_extremum(const surface_pair<T>& pair, const profile<T>& u) noexcept {
+  using std::sqrt;
+  sample<T> s;
+  const T a = u.k * u.extent;
+  const T p = T(1) + T(2) * a;
+  s.sound = p > T(0.04) && u.extent > T(0);
+  if (!s.sound) {
+    return s;
+  }
+  s.scale = u.extent;
+  s.modulus = p;
+  s.span = T(0);
+  s.gap = s.volume = T(0);
+  s.by[gap_row][0] = s.by[gap_row][1] = s.by[volume_row][0] = s.by[volume_row][1] = T(0);
+  s.lambda = T(1) + a;
+  s.lambda_by[0] = T(1);
+  s.lambda_by[1] = p;
+  s.lambda_by[2] = s.lambda_by[3] = T(0);
+  const T root_p = sqrt(p);
+  s.sound = add_side<N>(s, pair.side[0], a, p, root_p, u.extent, u.w[0], 0);
+  if constexpr (Equal) {
+    s.gap *= T(2);
+    s.volume *= T(2);
+    for (int row = gap_row; row <= volume_row; ++row) {
+      for (int column = 0; column < 3; ++column) {
+        s.by[row][column] *= T(2);
+      }
+    }
+    s.turn[1] = s.turn[0];
+    s.cosine[1] = s.cosine[0];
+  } else {
+    s.sound = s.sound && add_side<N>(s, pair.side[1], a, p, root_p, u.extent, u.w[1], 1);
+  }
+  return s;
+}
+
+/// A point of the complex plane with as much arithmetic as a profile needs.
+template <std::floating_point T>
+struct complex_point {
+  T re;
+  T im;
+  [[nodiscard]] friend complex_point operator*(const complex_point& a, const complex_point& b) noexcept {
+    return {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
+  }
+  [[nodiscard]] friend complex_point operator+(const complex_point& a, const complex_point& b) noexcept {
+    return {a.re + b.re, a.im + b.im};
+  }
+  [[nodiscard]] friend complex_point operator*(const complex_point& a, const T& b) noexcept {
+    return {a.re * b, a.im * b};
+  }
+  [[nodiscard]] complex_point turned() const noexcept { return {-im, re}; }  ///< × i
+};
+
+/// z at a contact circle and its derivative by ln w; `side` 0: the profile leaves the circle, 1: it arrives.
+template <std::floating_point T>
+struct circle_point {
+  complex_point<T> z;
+  complex_point<T> z_w;
+  circle_point(const contact_circle<T>& at, int side) noexcept {
+    const T c = side == 0 ? -at.cosine : at.cosine;
+    const T g = at.sine;
+    z = {at.radius * g, at.radius * c};
+    // d(g ± ic)/dδ = ±c̃ …: the direction turns by −i at the second circle and by +i at the first
+    const T sign = side == 0 ? T(1) : T(-1);
+    z_w = {at.radius * (at.cap_cosine * g - sign * at.cap_sine * c),
+           at.radius * (at.cap_cosine * c + sign * at.cap_sine * g)};
+  }
+};
+
+template <int N, bool Equal, std::floating_point T>
+[[nodiscard]] inline sample<T> sample_from_contact(const surface_pair<T>& pair, const profile<T>& u) noexcept {
+  using std::cos;
+  using std::sin;
+  using std::sqrt;
+  sample<T> s;
+  const T k = u.k;
+  s.sound = u.extent > T(0) && u.w[0] > T(0) && u.w[1] > T(0) && k < T(0) &&
+            -k * u.extent < (Equal ? T(1.6) : T(3.2));
+  if (!s.sound) {
+    return s;
+  }
+  const contact_circle<T> first(pair.side[0], u.w[0]);
+  const circle_point<T> start(first, 0);
+  const T scale = first.radius;
+  const T inverse = T(1) / scale;
+  const T length = u.extent;
+  const T per_k = T(1) / k;
+  const complex_point<T> front{T(1) + T(2) * k * start.z.re, T(2) * k * start.z.im};
+  s.scale = scale;
+  struct walk {
+    complex_point<T> z, z_k, z_l, z_w;
+  };
+  const auto at = [&](const T& fraction) {
+    const T arc = fraction * length;
+    const T angle = k * arc;
+    const complex_point<T> half{cos(angle), sin(angle)};
+    const complex_point<T> full = half * half;
+    walk to;
+    const complex_point<T> step = half.turned() * (half.im * per_k);
+    to.z = full * start.z + step;
+    to.z_k = (full * start.z).turned() * (T(2) * arc) + (full.turned() * arc + step * T(-1)) * per_k;
+    to.z_l = (full * front).turned() * arc;  // by ln L
+    to.z_w = full * start.z_w;
+    return to;
+  };
+  T x(0);
+  T v(0);
+  T x_by[3]{};
+  T v_by[3]{};
+  const auto& rule = gauss<T, N>;
+  for (std::size_t j = 0; j < static_cast<std::size_t>(N); ++j) {
+    for (int mirror = 0; mirror < 2; ++mirror) {
+      const T fraction = T(0.5) * (mirror == 0 ? T(1) - rule.node[j] : T(1) + rule.node[j]);
+      const walk to = at(fraction);
+      const T square = to.z.re * to.z.re + to.z.im * to.z.im;
+      const T r = sqrt(square);
+      const T per_r = T(1) / r;
+      const T cosine = to.z.re * per_r;
+      const T weight = T(0.5) * rule.weight[j];
+      x += weight * cosine;
+      v += weight * r * to.z.re;
+      const complex_point<T> rates[3] = {to.z_k, to.z_l, to.z_w};
+      for (int i = 0; i < 3; ++i) {
+        const T r_i = (to.z.re * rates[i].re + to.z.im * rates[i].im) * per_r;
+        x_by[i] += weight * (rates[i].re - cosine * r_i) * per_r;
+        v_by[i] += weight * (r * rates[i].re + to.z.re * r_i);
+      }
+    }
+  }
+  const T both = Equal ? T(2) : T(1);
+  const T per_length = both * length * inverse;
+  const T per_volume = both * pi<T> * length * inverse * inverse * inverse;
+  const T rise = first.height * inverse * (T(1) + first.cap_cosine);
+  s.gap = per_length * x - both * first.height * inverse;
+  s.volume = per_volume * v - both * first.cap * inverse * inverse * inverse;
+  s.by[gap_row][0] = per_length * x_by[0] * inverse;
+  s.by[gap_row][1] = per_length * (x + x_by[1]);
+  s.by[gap_row][2] = per_length * x_by[2] - both * rise;
+  s.by[volume_row][0] = per_volume * v_by[0] * inverse;
+  s.by[volume_row][1] = per_volume * (v + v_by[1]);
+  s.by[volume_row][2] = per_volume * v_by[2] - both * pi<T> * rise;
+  const walk end = at(T(1));
+  s.turn[0] = (first.sine + T(2) * k * first.radius) * first.cap_cosine + first.cosine * first.cap_sine;
+  s.cosine[0] = first.cosine;
+  if constexpr (Equal) {
+    s.match[0] = end.z.im * inverse;
+    s.by[match_row][0] = end.z_k.im * inverse * inverse;
+    s.by[match_row][1] = end.z_l.im * inverse;
+    s.by[match_row][2] = end.z_w.im * inverse;
+    s.turn[1] = s.turn[0];
+    s.cosine[1] = s.cosine[0];
+  } else {
+    const contact_circle<T> second(pair.side[1], u.w[1]);
+    const circle_point<T> target(second, 1);
+    s.match[0] = (end.z.re - target.z.re) * inverse;
+    s.match[1] = (end.z.im - target.z.im) * inverse;
+    const complex_point<T> columns[4] = {end.z_k * inverse, end.z_l, end.z_w, target.z_w * T(-1)};
+    for (int column = 0; column < 4; ++column) {
+      s.by[match_row][column] = columns[column].re * inverse;
+      s.by[second_match_row][column] = columns[column].im * inverse;
+    }
+    const T second_rise = second.height * inverse * (T(1) + second.cap_cosine);
+    const T ratio = second.radius * inverse;
+    s.gap -= second.height * inverse;
+    s.volume -= second.cap * inverse * inverse * inverse;
+    s.by[gap_row][3] = -second_rise;
+    s.by[volume_row][3] = -pi<T> * ratio * ratio * second_rise;
+    s.turn[1] = (second.sine + T(2) * k * second.radius) * second.cap_cosine + second.cosine * second.cap_sine;
+    s.cosine[1] = second.cosine;
+  }
+  const T size = start.z.re * start.z.re + start.z.im * start.z.im;
+  s.lambda = (start.z.re + k * size) * inverse;
+  s.lambda_by[0] = size * inverse * inverse;
+  s.lambda_by[1] = T(0);
+  s.lambda_by[2] = (front.re * start.z_w.re + front.im * start.z_w.im) * inverse;
+  s.lambda_by[3] = T(0);
+  s.modulus = sqrt(front.re * front.re + front.im * front.im);
+  s.span = T(-2) * k * both * length;
+  return s;
+}
+
+template <int N, bool Equal, std::floating_point T>
+[[nodiscard]] inline sample<T> sample_of(const surface_pair<T>& pair, const profile<T>& u) noexcept {
+  return u.by == chart::from_extremum ? sample_from_extremum<N, Equal>(pair, u)
+                                      : sample_from_contact<N, Equal>(pair, u);
+}
+
+/// Area between liquid and gas.
+template <int N, std::floating_point T>
+[[nodiscard]] inline T profile_area(const surface_pair<T>& pair, const profile<T>& u) noexcept {
+  using std::asinh;
+  using std::atan;
+  using std::cos;
+  using std::sin;
+  using std::sqrt;
+  const auto& rule = gauss<T, N>;
+  T area(0);
+  if (u.by == chart::from_contact) {
+    const contact_circle<T> first(pair.side[0], u.w[0]);
+    const circle_point<T> start(first, 0);
+    for (std::size_t j = 0; j < static_cast<std::size_t>(N); ++j) {
+      for (int mirror = 0; mirror < 2; ++mirror) {
+        const T angle = u.k * u.extent * T(0.5) * (mirror == 0 ? T(1) - rule.node[j] : T(1) + rule.node[j]);
+        const complex_point<T> half{cos(angle), sin(angle)};
+        const complex_point<T> z = half * half * start.z + half.turned() * (half.im / u.k);
+        area += T(0.5) * rule.weight[j] * sqrt(z.re * z.re + z.im * z.im);
+      }
+    }
+    return T(2) * pi<T> * u.extent * area * (pair.equal ? T(2) : T(1));
+  }
+  const T a = u.k * u.extent;
+  const T p = T(1) + T(2) * a;
+  const T root_p = sqrt(p);
+  std::array<T, static_cast<std::size_t>(N)> q;
+  for (std::size_t i = 0; i < (pair.equal ? 1U : 2U); ++i) {
+    const contact_circle<T> at(pair.side[i], u.w[i]);
+    const T rho = at.radius / u.extent;
+    const T t = rho * at.cosine / (T(1) + a + a * rho * at.sine);
+    const T sine = t / sqrt(T(1) + a * a * t * t);
+    T sum(0);
+    if (a < T(2) && std::abs(a * sine) < T(0.8)) {
+      const T m = asinh(root_p * sine);
+      squared_sines(m * m, rule.square, q);
+      for (std::size_t j = 0; j < q.size(); ++j) {
+        sum += rule.weight[j] * (T(1) + q[j]) / sqrt(T(1) - a * a / p * q[j]);
+      }
+      area += sum * m / root_p;
+    } else {
+      const T m = atan(a * t);
+      squared_sines(-m * m, rule.square, q);
+      for (std::size_t j = 0; j < q.size(); ++j) {
+        sum += rule.weight[j] * sqrt(T(1) - p / (a * a) * q[j]);
+      }
+      area += sum * m / a;
+    }
+  }
+  return T(2) * pi<T> * u.extent * u.extent * area * (pair.equal ? T(2) : T(1));
+}
+
+}  // namespace detail
+}  // namespace tetrapore::inline TETRAPORE_ABI

@@ -1,0 +1,431 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "tetrapore/law/bridge/meniscus.hpp"
+#include "tetrapore/law/bridge/profile.hpp"
+
+#include <algorithm>
+
+/// \file
+/// The profile of a given gap and volume or suction: Newton's method on all four equations.
+/// \par Source  derived here
+
+namespace tetrapore::inline TETRAPORE_ABI {
+namespace detail {
+
+template <std::floating_point T, int Rows, int Columns>
+using matrix = T[static_cast<std::size_t>(Rows)][static_cast<std::size_t>(Columns)];
+
+/// Gaussian elimination with row pivoting of n equations with m right-hand sides, in place.
+template <int n, int m, std::floating_point T>
+[[nodiscard]] inline bool eliminate(matrix<T, n, n + m>& a) noexcept {
+  for (int i = 0; i < n; ++i) {
+    int pivot = i;
+    for (int r = i + 1; r < n; ++r) {
+      if (std::abs(a[r][i]) > std::abs(a[pivot][i])) {
+        pivot = r;
+      }
+    }
+    if (!(std::abs(a[pivot][i]) > T(0))) {
+      return false;
+    }
+    if (pivot != i) {
+      for (int c = i; c < n + m; ++c) {
+        std::swap(a[i][c], a[pivot][c]);
+      }
+    }
+    const T inverse = T(1) / a[i][i];
+    for (int r = i + 1; r < n; ++r) {
+      const T factor = a[r][i] * inverse;
+      for (int c = i + 1; c < n + m; ++c) {
+        a[r][c] -= factor * a[i][c];
+      }
+    }
+    a[i][i] = inverse;
+  }
+  for (int k = n; k < n + m; ++k) {
+    for (int i = n - 1; i >= 0; --i) {
+      T sum = a[i][k];
+      for (int c = i + 1; c < n; ++c) {
+        sum -= a[i][c] * a[c][k];
+      }
+      a[i][k] = sum * a[i][i];
+    }
+  }
+  return true;
+}
+
+/// What is asked: a gap, and a volume or a k.
+template <std::floating_point T>
+struct demand {
+  T gap;
+  T value;
+  bridge_control by;
+};
+
+/// The unknowns in one order for all charts: (scale × k, ln extent, ln w1, ln w2); an equal pair has three.
+template <bool Equal>
+inline constexpr int unknowns = Equal ? 3 : 4;
+
+template <bool Equal, std::floating_point T>
+inline void move(profile<T>& u, const T& scale, const T (&by)[4], const T& factor) noexcept {
+  u.k += factor * by[0] / scale;
+  u.extent += u.extent * (factor * by[1]);
+  u.w[0] += u.w[0] * (factor * by[2]);
+  if constexpr (Equal) {
+    u.w[1] = u.w[0];
+  } else {
+    u.w[1] += u.w[1] * (factor * by[3]);
+  }
+}
+
+/// The largest share of a step that changes no length by more than half and k by no more than its own size or that of
+/// 1 / scale.
+template <bool Equal, std::floating_point T>
+[[nodiscard]] inline T bounded(const profile<T>& u, const T& scale, const T (&by)[4]) noexcept {
+  T largest = std::abs(by[0]) / (T(1) + std::abs(u.k) * scale);
+  for (int i = 1; i < unknowns<Equal>; ++i) {
+    largest = std::max(largest, std::abs(by[i]));
+  }
+  return largest > T(0.5) ? T(0.5) / largest : T(1);
+}
+
+/// The profile in the chart that suits it: from the extremum where there is a neck, real or virtual, else from the
+/// contact; p small, a bulge and a radius of the neck that is negative all need the latter.
+template <bool Equal, std::floating_point T>
+inline void choose_chart(const surface_pair<T>& pair, profile<T>& u) noexcept {
+  using std::atan2;
+  using std::sqrt;
+  T re[2];
+  T im[2];
+  T p[2];
+  for (int i = 0; i < 2; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const contact_circle<T> at(pair.side[k], u.w[k]);
+    re[i] = T(1) + T(2) * u.k * at.radius * at.sine;
+    im[i] = T(2) * u.k * at.radius * at.cosine;
+    p[i] = sqrt(re[i] * re[i] + im[i] * im[i]);
+  }
+  const T least = std::min(p[0], p[1]);
+  const bool neck = !(u.k < T(0)) || (re[0] + re[1] > T(0) && least > T(0.1) && least < T(1) &&
+                                      re[0] > T(-0.9) * p[0] && re[1] > T(-0.9) * p[1]);
+  if (neck && u.by == chart::from_contact) {
+    u.by = chart::from_extremum;
+    u.extent = (T(0.5) * (p[0] + p[1]) - T(1)) / (T(2) * u.k);
+  } else if (!neck && u.by == chart::from_extremum) {
+    u.by = chart::from_contact;
+    const T angle = atan2(im[0], re[0]) + (Equal ? T(0) : atan2(im[1], re[1]));
+    u.extent = T(0.5) * angle / u.k;
+  }
+}
+
+/// A profile that was found.
+template <std::floating_point T>
+struct found {
+  profile<T> u;
+  sample<T> at;         ///< where the last step was taken from
+  T lambda;             ///< after the last step, as all below
+  T volume;
+  T by_gap[4];          ///< the unknowns by gap / scale, the given value constant
+  T by_value[4];        ///< the unknowns by the given value: volume / scale³ or k × scale, gap constant
+  T least;              ///< (step of the unknowns per unit of gap)⁻¹: how near the fold
+  bool converged;
+};
+
+/// Negative directions of the energy under constant suction, from Jacobi's field of the profile: the translation of the
+/// curve and its change of size at constant k span its solutions, so that its zeros are counted without tracing it.
+/// With g the gap: [∂λ/∂δ₁ cos(δ₁+θ₁) < 0] + [the same of 2] + [dλ/dg at k > 0] + (extrema of the profile) − 1.
+/// Under constant volume one less where dV/dk > 0 at constant gap.
+struct stability_index {
+  int at_suction;
+  int at_volume;
+  bool slides;  ///< the contact circles of an equal pair slide together: the bridge turns lopsided
+};
+
+template <std::floating_point T>
+[[nodiscard]] inline int extrema(const sample<T>& s) noexcept {
+  if ((s.cosine[0] < T(0)) == (s.cosine[1] < T(0))) {
+    return 1;
+  }
+  return s.span > pi<T> ? 2 : 0;
+}
+
+template <bool Equal, std::floating_point T>
+[[nodiscard]] inline stability_index index_of(const surface_pair<T>& pair, const found<T>& f,
+                                              bridge_control by) noexcept {
+  using std::cos;
+  using std::sin;
+  T lambda_gap(0);
+  T lambda_value(0);
+  T volume_value(0);
+  for (int i = 0; i < unknowns<Equal>; ++i) {
+    lambda_gap += f.at.lambda_by[i] * f.by_gap[i];
+    lambda_value += f.at.lambda_by[i] * f.by_value[i];
+    volume_value += f.at.by[volume_row][i] * f.by_value[i];
+  }
+  bool swells = volume_value > T(0);  // dV/dk > 0
+  bool stiffens = lambda_gap > T(0);  // dλ/dg > 0 at k
+  if (by == bridge_control::volume) {
+    const T k_value = f.by_value[0];
+    swells = k_value > T(0);
+    const T numerator = lambda_gap * k_value - lambda_value * f.by_gap[0];
+    stiffens = swells ? numerator > T(0) : numerator < T(0);
+  }
+  stability_index index{};
+  if (std::abs(f.at.modulus) < T(1e-9)) {
+    // the cylinder itself: Jacobi's field is a sine
+    const contact_circle<T> first(pair.side[0], f.u.w[0]);
+    const contact_circle<T> second(pair.side[1], f.u.w[1]);
+    const T angle = f.at.span;
+    const T a = first.cap_sine / first.cap_cosine;
+    const T b = second.cap_sine / second.cap_cosine;
+    const T field = cos(angle) + a * sin(angle);
+    const T slope = a * cos(angle) - sin(angle);
+    const bool zero = field < T(0);
+    index.at_suction = (zero ? 1 : 0) + ((slope + b * field) * (zero ? T(-1) : T(1)) < T(0) ? 1 : 0);
+    index.slides = index.at_suction > 1;
+  } else {
+    index.at_suction = (f.at.turn[0] * f.at.cosine[0] < T(0) ? 1 : 0) +
+                       (f.at.turn[1] * f.at.cosine[1] < T(0) ? 1 : 0) + (stiffens ? 1 : 0) + extrema(f.at) - 1;
+    index.slides = Equal && f.at.turn[0] * f.at.cosine[0] < T(0);
+  }
+  index.at_volume = index.at_suction - (swells ? 1 : 0);
+  return index;
+}
+
+/// The equations at a sample as a linear system whose right-hand sides are the step to the solution and the changes by
+/// gap and by value.
+template <bool Equal, std::floating_point T>
+[[nodiscard]] inline bool linearise(const sample<T>& s, const profile<T>& u, const demand<T>& d, T (&step)[4],
+                                    T (&by_gap)[4], T (&by_value)[4]) noexcept {
+  constexpr int n = unknowns<Equal>;
+  matrix<T, n, n + 3> a;
+  for (int row = 0; row < n; ++row) {
+    for (int column = 0; column < n; ++column) {
+      a[row][column] = s.by[row][column];
+    }
+    a[row][n + 1] = a[row][n + 2] = T(0);
+  }
+  const T inverse = T(1) / s.scale;
+  a[match_row][n] = -s.match[0];
+  a[gap_row][n] = d.gap * inverse - s.gap;
+  if (d.by == bridge_control::volume) {
+    a[volume_row][n] = d.value * inverse * inverse * inverse - s.volume;
+  } else {
+    a[volume_row][n] = (d.value - u.k) * s.scale;
+    a[volume_row][0] = T(1);
+    for (int column = 1; column < n; ++column) {
+      a[volume_row][column] = T(0);
+    }
+  }
+  if constexpr (!Equal) {
+    a[second_match_row][n] = -s.match[1];
+  }
+  a[gap_row][n + 1] = T(1);
+  a[volume_row][n + 2] = T(1);
+  if (!eliminate<n, 3, T>(a)) {
+    return false;
+  }
+  for (int i = 0; i < n; ++i) {
+    step[i] = a[i][n];
+    by_gap[i] = a[i][n + 1];
+    by_value[i] = a[i][n + 2];
+  }
+  for (int i = n; i < 4; ++i) {
+    step[i] = by_gap[i] = by_value[i] = T(0);
+  }
+  return true;
+}
+
+inline constexpr int newton_cap = 30;
+
+/// Newton's method from `u`.
+template <int N, bool Equal, std::floating_point T>
+[[nodiscard]] inline found<T> newton(const surface_pair<T>& pair, const demand<T>& d, const profile<T>& u,
+                                     int cap = newton_cap) noexcept {
+  using std::isfinite;
+  found<T> f;
+  f.u = u;
+  f.converged = false;
+  T before = T(1);
+  int charts = 0;
+  for (int iteration = 0; iteration < cap; ++iteration) {
+    f.at = sample_of<N, Equal>(pair, f.u);
+    T step[4];
+    if (!f.at.sound) {
+      const chart was = f.u.by;
+      choose_chart<Equal>(pair, f.u);
+      if (was == f.u.by || ++charts > 3) {
+        return f;
+      }
+      continue;
+    }
+    if (!linearise<Equal>(f.at, f.u, d, step, f.by_gap, f.by_value)) {
+      return f;
+    }
+    T size = std::abs(step[0]) / (T(1) + std::abs(f.u.k) * f.at.scale);
+    for (int i = 1; i < unknowns<Equal>; ++i) {
+      size = std::max(size, std::abs(step[i]));
+    }
+    if (!isfinite(size)) {
+      return f;
+    }
+    const T factor = size > T(0.5) ? T(0.5) / size : T(1);
+    const profile<T> from = f.u;
+    move<Equal>(f.u, f.at.scale, step, factor);
+    // the error after a step is its square times that of the last; a step that no longer shrinks is rounding
+    const T gain = size / before;
+    const bool settled = size * gain * gain < T(8) * std::numeric_limits<T>::epsilon() && size < T(1e-3);
+    const bool stalled = size < T(1e8) * std::numeric_limits<T>::epsilon() && gain > T(0.3);
+    if (size * size < std::numeric_limits<T>::epsilon() * T(1e-2) || (iteration > 0 && (settled || stalled))) {
+      f.volume = f.at.volume;
+      for (int i = 0; i < unknowns<Equal>; ++i) {
+        f.volume += f.at.by[volume_row][i] * step[i];
+      }
+      f.volume *= f.at.scale * f.at.scale * f.at.scale;
+      if (f.u.by == chart::from_extremum) {
+        f.lambda = f.u.extent + f.u.k * f.u.extent * f.u.extent;
+      } else {
+        const contact_circle<T> first(pair.side[0], f.u.w[0]);
+        f.lambda = first.radius * first.sine + f.u.k * first.radius * first.radius;
+      }
+      f.converged = true;
+      static_cast<void>(from);
+      return f;
+    }
+    before = size;
+    if (f.u.by == chart::from_extremum && T(1) + T(2) * f.u.k * f.u.extent < T(0.1) && charts < 3) {
+      ++charts;
+      choose_chart<Equal>(pair, f.u);
+    }
+  }
+  return f;
+}
+
+/// The bridge as if its profile were an arc of a circle and both contact circles of one size.
+template <std::floating_point T>
+struct toroid {
+  T circle;  ///< radius of the contact circles
+  T arc;     ///< radius of the arc, negative where it bulges
+  T neck;
+  T k;
+  T length;
+  T volume;
+  std::array<T, 2> w;
+
+  toroid(const surface_pair<T>& pair, const T& gap, const T& rc) noexcept {
+    using std::atan2;
+    using std::sqrt;
+    circle = rc;
+    T cosines(0);
+    T span = gap;
+    T sines[2];
+    T slopes[2];
+    T caps(0);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const wetted_surface<T>& on = pair.side[i];
+      const T sine = std::min(on.curvature * rc, T(0.97));
+      const T cosine = sqrt(T(1) - sine * sine);
+      w[i] = T(2) * std::min(rc, sine > T(0) ? sine / on.curvature : rc) / (T(1) + cosine);
+      const contact_circle<T> at(on, w[i]);
+      sines[i] = at.sine;
+      slopes[i] = at.cosine;
+      cosines += at.cosine;
+      span += at.height;
+      caps += at.cap;
+    }
+    const T bend = std::abs(cosines) > T(1e-3) ? cosines : T(1e-3);
+    arc = span / bend;
+    volume = pi<T> * rc * rc * span - caps;
+    T sag(0);
+    T turned(0);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const T c = slopes[i];
+      const T own = arc * (T(1) - sines[i]);
+      const T s2 = c * c;
+      // angle − sin cos of the half arc, times ρ²/2
+      const T lune = T(0.5) * arc * arc * c * s2 *
+                     (T(0.6667) + s2 * (T(0.2) + s2 * (T(0.107) + T(0.597) * s2 * s2 * s2 * s2)));
+      volume -= T(2) * pi<T> * (rc - T(0.4) * own) * lune;
+      sag += T(0.5) * own;
+      turned += atan2(c, sines[i]);
+    }
+    neck = rc - sag;
+    length = std::abs(cosines) > T(1e-3) ? arc * turned : span;
+    neck = std::max(neck, T(0.25) * rc);
+    k = T(0.5) * (T(1) / arc - T(1) / neck);
+  }
+};
+
+template <bool Equal, std::floating_point T>
+[[nodiscard]] inline profile<T> profile_of(const surface_pair<T>& pair, const toroid<T>& t) noexcept {
+  profile<T> u{t.k, t.neck, t.w, chart::from_extremum};
+  const chart was = u.by;
+  choose_chart<Equal>(pair, u);
+  if (u.by != was) {
+    u.extent = Equal ? T(0.5) * t.length : t.length;
+  }
+  return u;
+}
+
+/// Where Newton's method starts.
+template <bool Equal, std::floating_point T>
+[[nodiscard]] inline profile<T> first_guess(const surface_pair<T>& pair, const demand<T>& d) noexcept {
+  using std::isfinite;
+  using std::sqrt;
+  const T curvature = pair.side[0].curvature + pair.side[1].curvature;
+  const T gap = std::max(d.gap, T(0));
+  if (d.by == bridge_control::volume) {
+    // the cylinder between two paraboloids: πr²g + π r⁴ curvature / 4 = V
+    const T half = T(2) * gap / curvature;
+    const T target = T(4) * d.value / (pi<T> * curvature);
+    T rc = sqrt(target / (half + sqrt(half * half + target)));
+    toroid<T> t(pair, gap, rc);
+    for (int i = 0; i < 4; ++i) {
+      const T miss = d.value / t.volume - T(1);
+      if (!(t.volume > T(0)) || miss > T(1)) {
+        rc *= T(1.3);
+      } else {
+        const T quadratic = curvature * rc * rc;
+        const T power = (T(2) * gap + quadratic) / (gap + T(0.25) * quadratic);
+        rc *= T(1) + miss / power;
+      }
+      t = toroid<T>(pair, gap, rc);
+      if (std::abs(miss) < T(0.05)) {
+        break;
+      }
+    }
+    return profile_of<Equal>(pair, t);
+  }
+  // ρ = 1 / (2k + 1/neck) from the largest neck down
+  const T wetting = pair.side[0].cosine + pair.side[1].cosine;
+  const T k = d.value;
+  const T widest = T(0.95) / std::max(pair.side[0].curvature, pair.side[1].curvature);
+  T rc = widest;
+  if (k > T(0)) {
+    const T square = T(2) * (T(0.5) * wetting / k - gap) / curvature;
+    rc = square > T(0) ? std::min(sqrt(square), widest) : widest;
+  }
+  toroid<T> t(pair, gap, rc);
+  for (int i = 0; i < 8; ++i) {
+    const T arc = T(1) / (T(2) * k + T(1) / t.neck);
+    const T cosines = t.arc > T(0) ? (gap + curvature * T(0.5) * rc * rc) / t.arc : wetting;
+    const T square = T(2) * (arc * cosines - gap) / curvature;
+    if (!(arc > T(0)) || !(square > T(0))) {
+      break;
+    }
+    const T next = std::min(sqrt(square), widest);
+    const T change = std::abs(next - rc);
+    rc = next;
+    t = toroid<T>(pair, gap, rc);
+    if (change < T(0.02) * rc) {
+      break;
+    }
+  }
+  profile<T> u = profile_of<Equal>(pair, t);
+  u.k = k;
+  return u;
+}
+
+}  // namespace detail
+}  // namespace tetrapore::inline TETRAPORE_ABI

@@ -1,0 +1,422 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "tetrapore/core/required.hpp"
+#include "tetrapore/law/bridge/march.hpp"
+
+namespace tetrapore::inline TETRAPORE_ABI {
+
+/// The bridge between two wetted surfaces that solves the equation of Young and Laplace without gravity: two spheres of
+/// any radii, or a sphere and a plane, apart, in contact or overlapping, of a given volume or at a given suction.
+/// Of all profiles the stable one that comes, as the gap widens, from the bridge at contact.
+/// \par Units   surface tension [N/m], angles [rad], else SI
+/// \par Domain  0 ≤ θ < 90° on either surface (angle k on the surface of radius k); gap > −R; any suction
+/// \par Accuracy  see tests/truth/law/bridge_table_test.cpp
+/// \par Source  Chareyre et al., EPJ Web Conf. 140, 09027 (2017), §2.3, Eq. (4); profiles of Delaunay (profile.hpp)
+template <int Nodes = 10>
+struct young_laplace {
+  static_assert(Nodes >= 4);
+  required<double> surface_tension;
+  double contact_angle1 = 0;
+  double contact_angle2 = 0;
+
+  /// What a pair remembers from its last step. A new one starts cold; so does one whose pair has changed.
+  template <real T>
+  struct warm_state {
+    using value_type = std::conditional_t<std::is_same_v<T, float>, double, T>;
+    detail::surface_pair<value_type> pair{};
+    detail::demand<value_type> met{};
+    detail::profile<value_type> u{};
+    value_type scale{};
+    value_type by_gap[4]{};
+    value_type by_value[4]{};
+    bool warm = false;
+  };
+
+  template <std::floating_point T>
+  [[nodiscard]] outcome<meniscus<T>, bridge_status> bridge(const edge<T>& e, const given_volume<T>& v) const noexcept {
+    warm_state<T> none;
+    return solve<T, false>(e, v.value, bridge_control::volume, none);
+  }
+  template <std::floating_point T>
+  [[nodiscard]] outcome<meniscus<T>, bridge_status> bridge(const edge<T>& e, const given_suction<T>& p) const noexcept {
+    warm_state<T> none;
+    return solve<T, false>(e, p.value, bridge_control::suction, none);
+  }
+  template <std::floating_point T>
+  [[nodiscard]] outcome<meniscus<T>, bridge_status> bridge(const edge<T>& e, const given_volume<T>& v,
+                                                           warm_state<T>& w) const noexcept {
+    return solve<T, true>(e, v.value, bridge_control::volume, w);
+  }
+  template <std::floating_point T>
+  [[nodiscard]] outcome<meniscus<T>, bridge_status> bridge(const edge<T>& e, const given_suction<T>& p,
+                                                           warm_state<T>& w) const noexcept {
+    return solve<T, true>(e, p.value, bridge_control::suction, w);
+  }
+
+  /// Areas of a bridge of this law on this edge. \par Units  [m²]
+  template <std::floating_point T>
+  [[nodiscard]] bridge_areas<T> areas(const edge<T>& e, const meniscus<T>& m) const noexcept;
+
+  /// Free energy of a bridge, σ (A_liquid_gas − Σ cos θ A_wetted): −dE/dgap at constant volume is −force. \par Units [J]
+  template <std::floating_point T>
+  [[nodiscard]] T energy(const edge<T>& e, const meniscus<T>& m) const noexcept {
+    using std::cos;
+    const bridge_areas<T> a = areas(e, m);
+    return T(surface_tension.get()) *
+           (a.liquid_gas - T(cos(contact_angle1)) * a.wetted1 - T(cos(contact_angle2)) * a.wetted2);
+  }
+
+  /// Derivatives of a bridge of this law on this edge.
+  template <std::floating_point T>
+  [[nodiscard]] bridge_stiffness<T> stiffness(const edge<T>& e, const meniscus<T>& m) const noexcept;
+
+  /// Whether a bridge of this law on this edge is stable against axisymmetric disturbances.
+  template <std::floating_point T>
+  [[nodiscard]] bool stable(const edge<T>& e, const meniscus<T>& m, bridge_control control) const noexcept;
+
+  /// The widest gap that a bridge of this volume spans; the gap of the edge does not matter.
+  template <std::floating_point T>
+  [[nodiscard]] outcome<bridge_limit<T>, bridge_status> rupture_gap(const edge<T>& e,
+                                                                    const given_volume<T>& v) const noexcept {
+    return widest(e, v.value, bridge_control::volume);
+  }
+  /// The widest gap that a bridge at this suction spans; the gap of the edge does not matter.
+  template <std::floating_point T>
+  [[nodiscard]] outcome<bridge_limit<T>, bridge_status> rupture_gap(const edge<T>& e,
+                                                                    const given_suction<T>& p) const noexcept {
+    return widest(e, p.value, bridge_control::suction);
+  }
+
+ private:
+  template <class T>
+  using work = std::conditional_t<std::is_same_v<T, float>, double, T>;
+
+  template <class T>
+  [[nodiscard]] bool in_domain(const edge<T>& e) const noexcept {
+    using std::isfinite;
+    const double right = pi<double> / 2;
+    const bool angles = contact_angle1 >= 0 && contact_angle1 < right && contact_angle2 >= 0 && contact_angle2 < right;
+    const bool radii = e.radius1 > T(0) && e.radius2 > T(0) && (isfinite(e.radius1) || isfinite(e.radius2));
+    return surface_tension.get() > 0 && surface_tension.get() < infinity<double> && angles && radii &&
+           isfinite(e.gap) && e.gap > -std::min(e.radius1, e.radius2);
+  }
+
+  template <class T, class W = work<T>>
+  [[nodiscard]] detail::surface_pair<W> pair_of(const edge<T>& e) const noexcept {
+    using std::cos;
+    using std::sin;
+    const W one = static_cast<W>(contact_angle1);
+    const W two = static_cast<W>(contact_angle2);
+    detail::surface_pair<W> pair;
+    pair.side[0] = {W(1) / static_cast<W>(e.radius1), cos(one), sin(one)};
+    pair.equal = e.radius1 == e.radius2 && contact_angle1 == contact_angle2;
+    if (pair.equal) {
+      pair.side[1] = pair.side[0];
+    } else {
+      pair.side[1] = {W(1) / static_cast<W>(e.radius2), cos(two), sin(two)};
+    }
+    return pair;
+  }
+
+  template <class T>
+  [[nodiscard]] static outcome<meniscus<T>, bridge_status> without(bridge_status s) noexcept {
+    const T x = verdict_of(s) == verdict::absent ? T(0) : T(quiet_nan<T>);
+    return {{x, x, x, x, x, x, x, x, x, x, x, x, false}, s};
+  }
+
+  template <class T, class W = work<T>>
+  [[nodiscard]] meniscus<T> meniscus_of(const detail::surface_pair<W>& pair, const detail::profile<W>& u, const W& lambda,
+                                        const W& volume) const noexcept {
+    using std::atan;
+    const W sigma = static_cast<W>(surface_tension.get());
+    const detail::contact_circle<W> first(pair.side[0], u.w[0]);
+    const detail::contact_circle<W> second(pair.side[1], u.w[1]);
+    const W fill1 = W(2) * atan(W(0.5) * pair.side[0].curvature * u.w[0]);
+    W neck = std::min(first.radius, second.radius);
+    const bool by_length = u.by == detail::chart::from_contact;
+    if (!by_length && first.cosine > W(0) && second.cosine > W(0)) {
+      neck = u.extent;
+    } else if (by_length && first.cosine > W(0) && second.cosine > W(0)) {
+      using std::sqrt;
+      const W re = W(1) + W(2) * u.k * first.radius * first.sine;
+      const W im = W(2) * u.k * first.radius * first.cosine;
+      neck = (sqrt(re * re + im * im) - W(1)) / (W(2) * u.k);
+    }
+    meniscus<T> m;
+    m.force = static_cast<T>(W(2) * pi<W> * sigma * lambda);
+    m.volume = static_cast<T>(volume);
+    m.suction = static_cast<T>(W(2) * sigma * u.k);
+    m.neck = static_cast<T>(neck);
+    m.filling1 = static_cast<T>(fill1);
+    m.filling2 = pair.equal ? m.filling1
+                            : static_cast<T>(W(2) * atan(W(0.5) * pair.side[1].curvature * u.w[1]));
+    m.contact1 = static_cast<T>(first.radius);
+    m.contact2 = static_cast<T>(second.radius);
+    m.curvature = static_cast<T>(u.k);
+    m.extent = static_cast<T>(u.extent);
+    m.circle1 = static_cast<T>(u.w[0]);
+    m.circle2 = static_cast<T>(u.w[1]);
+    m.by_length = by_length;
+    return m;
+  }
+
+  template <class T, class W = work<T>>
+  [[nodiscard]] static detail::profile<W> profile_in(const meniscus<T>& m) noexcept {
+    return {static_cast<W>(m.curvature),
+            static_cast<W>(m.extent),
+            {static_cast<W>(m.circle1), static_cast<W>(m.circle2)},
+            m.by_length ? detail::chart::from_contact : detail::chart::from_extremum};
+  }
+
+  template <class T, bool Warm>
+  [[nodiscard]] outcome<meniscus<T>, bridge_status> solve(const edge<T>& e, const T& value, bridge_control by,
+                                                          warm_state<T>& w) const noexcept {
+    using W = work<T>;
+    using std::isfinite;
+    if (!in_domain(e) || !isfinite(value) || (by == bridge_control::volume && value < T(0))) {
+      return without<T>(bridge_status::invalid_input);
+    }
+    if (by == bridge_control::volume && value == T(0)) {
+      return without<T>(bridge_status::no_liquid);
+    }
+    const auto pair = pair_of(e);
+    const W asked = by == bridge_control::volume ? static_cast<W>(value)
+                                                 : static_cast<W>(value) / (W(2) * static_cast<W>(surface_tension.get()));
+    const detail::demand<W> d{static_cast<W>(e.gap), asked, by};
+    return pair.equal ? solve_pair<T, Warm, true>(pair, d, w) : solve_pair<T, Warm, false>(pair, d, w);
+  }
+
+  [[nodiscard]] static bool holds(const detail::stability_index& i, bridge_control by) noexcept {
+    return (by == bridge_control::volume ? i.at_volume : i.at_suction) == 0;
+  }
+
+  /// How many nodes the last digits need: near a fold the error of the quadrature is amplified.
+  static constexpr int fine = 2 * Nodes;
+
+  template <class T, bool Warm, bool Equal, class W = work<T>>
+  [[nodiscard]] outcome<meniscus<T>, bridge_status> solve_pair(const detail::surface_pair<W>& pair,
+                                                               const detail::demand<W>& d,
+                                                               warm_state<T>& w) const noexcept {
+    detail::found<W> f;
+    f.converged = false;
+    if constexpr (Warm) {
+      f = from_warm<T, Equal>(pair, d, w);
+    }
+    if (!f.converged) {
+      f = detail::newton<Nodes, Equal>(pair, d, detail::first_guess<Equal>(pair, d), 12);
+      if (!f.converged || !holds(detail::index_of<Equal>(pair, f, d.by), d.by)) {
+        const auto trip = detail::travel<fine, Equal>(pair, d, d.gap);
+        if constexpr (Warm) {
+          w.warm = false;
+        }
+        if (trip.how == detail::arrival::at_fold) {
+          return without<T>(d.gap < W(0) ? bridge_status::flooded : bridge_status::ruptured);
+        }
+        if (trip.how == detail::arrival::at_limit) {
+          return without<T>(bridge_status::flooded);
+        }
+        if (trip.how == detail::arrival::lost) {
+          return without<T>(bridge_status::not_converged);
+        }
+        f = detail::newton<fine, Equal>(pair, d, trip.end.u);
+        if (!f.converged) {
+          return without<T>(bridge_status::not_converged);
+        }
+        const auto index = detail::index_of<Equal>(pair, f, d.by);
+        if (!holds(index, d.by)) {
+          return without<T>(index.slides ? bridge_status::lopsided : bridge_status::ruptured);
+        }
+      } else if (sensitive<Equal>(f, d)) {
+        f = detail::newton<fine, Equal>(pair, d, f.u);
+        if (!f.converged) {
+          return without<T>(bridge_status::not_converged);
+        }
+      }
+    }
+    if constexpr (Warm) {
+      w.pair = pair;
+      w.met = d;
+      w.u = f.u;
+      w.scale = f.at.scale;
+      for (int i = 0; i < 4; ++i) {
+        w.by_gap[i] = f.by_gap[i];
+        w.by_value[i] = f.by_value[i];
+      }
+      w.warm = true;
+    }
+    return {meniscus_of<T>(pair, f.u, f.lambda, d.by == bridge_control::volume ? d.value : f.volume),
+            bridge_status::ok};
+  }
+
+  /// Whether errors of the quadrature reach the force enlarged.
+  template <bool Equal, class W>
+  [[nodiscard]] static bool sensitive(const detail::found<W>& f, const detail::demand<W>&) noexcept {
+    W lambda_gap(0);
+    for (int i = 0; i < detail::unknowns<Equal>; ++i) {
+      lambda_gap += f.at.lambda_by[i] * f.by_gap[i];
+    }
+    return std::abs(lambda_gap) * std::abs(f.at.gap) > W(3) * std::abs(f.at.lambda);
+  }
+
+  template <class T, bool Equal, class W = work<T>>
+  [[nodiscard]] detail::found<W> from_warm(const detail::surface_pair<W>& pair, const detail::demand<W>& d,
+                                           const warm_state<T>& w) const noexcept {
+    detail::found<W> f;
+    f.converged = false;
+    const auto same = [&](std::size_t i) {
+      const auto& a = pair.side[i];
+      const auto& b = w.pair.side[i];
+      return a.curvature == b.curvature && a.cosine == b.cosine && a.sine == b.sine;
+    };
+    if (!w.warm || w.met.by != d.by || w.pair.equal != pair.equal || !same(0) || !same(1)) {
+      return f;
+    }
+    const W inverse = W(1) / w.scale;
+    const W gap = (d.gap - w.met.gap) * inverse;
+    const W value = (d.value - w.met.value) *
+                    (d.by == bridge_control::volume ? inverse * inverse * inverse : w.scale);
+    W step[4];
+    W size(0);
+    for (int i = 0; i < 4; ++i) {
+      step[i] = gap * w.by_gap[i] + value * w.by_value[i];
+      size = std::max(size, std::abs(step[i]) / (i == 0 ? W(1) + std::abs(w.u.k) * w.scale : W(1)));
+    }
+    if (!(size < W(0.1))) {
+      return f;
+    }
+    detail::profile<W> u = w.u;
+    detail::move<Equal>(u, w.scale, step, W(1));
+    f = detail::newton<Nodes, Equal>(pair, d, u, 6);
+    if (!f.converged || !holds(detail::index_of<Equal>(pair, f, d.by), d.by)) {
+      f.converged = false;
+      return f;
+    }
+    if (sensitive<Equal>(f, d)) {
+      f = detail::newton<fine, Equal>(pair, d, f.u, 6);
+    }
+    return f;
+  }
+
+  template <class T>
+  [[nodiscard]] outcome<bridge_limit<T>, bridge_status> widest(const edge<T>& e, const T& value,
+                                                               bridge_control by) const noexcept {
+    using W = work<T>;
+    using std::isfinite;
+    const T nan = quiet_nan<T>;
+    edge<T> touching = e;
+    touching.gap = T(0);
+    if (!in_domain(touching) || !isfinite(value) || (by == bridge_control::volume && value < T(0))) {
+      return {{nan, bridge_end::fold, without<T>(bridge_status::invalid_input).value}, bridge_status::invalid_input};
+    }
+    if (by == bridge_control::volume && value == T(0)) {
+      return {{T(0), bridge_end::fold, without<T>(bridge_status::no_liquid).value}, bridge_status::no_liquid};
+    }
+    const auto pair = pair_of(e);
+    const W asked = by == bridge_control::volume ? static_cast<W>(value)
+                                                 : static_cast<W>(value) / (W(2) * static_cast<W>(surface_tension.get()));
+    const detail::demand<W> d{W(0), asked, by};
+    return pair.equal ? widest_of<T, true>(pair, d) : widest_of<T, false>(pair, d);
+  }
+
+  template <class T, bool Equal, class W = work<T>>
+  [[nodiscard]] outcome<bridge_limit<T>, bridge_status> widest_of(const detail::surface_pair<W>& pair,
+                                                                  const detail::demand<W>& d) const noexcept {
+    const auto trip = detail::travel<fine, Equal>(pair, d, infinity<W>);
+    const auto answer = [&](const detail::waypoint<W>& at, bridge_end how) -> outcome<bridge_limit<T>, bridge_status> {
+      const W scale = at.at.scale;
+      return {{static_cast<T>(at.reach), how,
+               meniscus_of<T>(pair, at.u, at.at.lambda * scale, at.at.volume * scale * scale * scale)},
+              bridge_status::ok};
+    };
+    if (trip.slides) {
+      return answer(trip.first_slide, bridge_end::lopsided);
+    }
+    if (trip.how == detail::arrival::at_fold) {
+      return answer(trip.end, bridge_end::fold);
+    }
+    const auto why = trip.how == detail::arrival::at_limit ? bridge_status::flooded : bridge_status::not_converged;
+    return {{T(quiet_nan<T>), bridge_end::fold, without<T>(why).value}, why};
+  }
+
+  template <class T, class W = work<T>>
+  [[nodiscard]] detail::found<W> found_at(const detail::surface_pair<W>& pair, const meniscus<T>& m,
+                                          bridge_control by) const noexcept {
+    detail::found<W> f;
+    f.u = profile_in(m);
+    f.at = pair.equal ? detail::sample_of<fine, true>(pair, f.u) : detail::sample_of<fine, false>(pair, f.u);
+    f.converged = false;
+    if (f.at.sound) {
+      const detail::demand<W> d{f.at.gap * f.at.scale, f.u.k, by};
+      W step[4];
+      f.converged = pair.equal ? detail::linearise<true>(f.at, f.u, d, step, f.by_gap, f.by_value)
+                               : detail::linearise<false>(f.at, f.u, d, step, f.by_gap, f.by_value);
+    }
+    return f;
+  }
+};
+
+template <int Nodes>
+template <std::floating_point T>
+bridge_stiffness<T> young_laplace<Nodes>::stiffness(const edge<T>& e, const meniscus<T>& m) const noexcept {
+  using W = work<T>;
+  const T nan = quiet_nan<T>;
+  const auto pair = pair_of(e);
+  const auto at_k = found_at(pair, m, bridge_control::suction);
+  const auto at_volume = found_at(pair, m, bridge_control::volume);
+  if (!at_k.converged || !at_volume.converged) {
+    return {nan, nan, nan, nan, nan};
+  }
+  W lambda_gap(0);
+  W lambda_gap_at_volume(0);
+  W volume_gap(0);
+  W volume_k(0);
+  for (int i = 0; i < (pair.equal ? 3 : 4); ++i) {
+    lambda_gap += at_k.at.lambda_by[i] * at_k.by_gap[i];
+    lambda_gap_at_volume += at_k.at.lambda_by[i] * at_volume.by_gap[i];
+    volume_gap += at_k.at.by[detail::volume_row][i] * at_k.by_gap[i];
+    volume_k += at_k.at.by[detail::volume_row][i] * at_k.by_value[i];
+  }
+  const W sigma = static_cast<W>(surface_tension.get());
+  const W scale = at_k.at.scale;
+  const W around = W(2) * pi<W> * sigma;
+  bridge_stiffness<T> s;
+  s.force_by_gap_at_volume = static_cast<T>(around * lambda_gap_at_volume);
+  s.force_by_gap_at_suction = static_cast<T>(around * lambda_gap);
+  s.volume_by_gap_at_suction = static_cast<T>(volume_gap * scale * scale);
+  s.suction_by_gap_at_volume = static_cast<T>(W(2) * sigma * at_volume.by_gap[0] / (scale * scale));
+  s.volume_by_suction = static_cast<T>(volume_k * scale * scale * scale * scale / (W(2) * sigma));
+  return s;
+}
+
+template <int Nodes>
+template <std::floating_point T>
+bool young_laplace<Nodes>::stable(const edge<T>& e, const meniscus<T>& m, bridge_control control) const noexcept {
+  const auto pair = pair_of(e);
+  const auto f = found_at(pair, m, bridge_control::suction);
+  return f.converged && holds(pair.equal ? detail::index_of<true>(pair, f, bridge_control::suction)
+                                         : detail::index_of<false>(pair, f, bridge_control::suction),
+                              control);
+}
+
+template <int Nodes>
+template <std::floating_point T>
+bridge_areas<T> young_laplace<Nodes>::areas(const edge<T>& e, const meniscus<T>& m) const noexcept {
+  using W = work<T>;
+  const auto pair = pair_of(e);
+  const auto u = profile_in(m);
+  bridge_areas<T> a;
+  const auto wetted = [&](std::size_t i) {
+    const detail::contact_circle<W> at(pair.side[i], u.w[i]);
+    return static_cast<T>(pi<W> * u.w[i] * at.radius);  // 2πRh
+  };
+  a.wetted1 = wetted(0);
+  a.wetted2 = pair.equal ? a.wetted1 : wetted(1);
+  a.liquid_gas = static_cast<T>(detail::profile_area<fine>(pair, u));
+  return a;
+}
+
+static_assert(warm_bridge_law<young_laplace<>, double, given_volume<double>>);
+static_assert(warm_bridge_law<young_laplace<>, double, given_suction<double>>);
+
+}  // namespace tetrapore::inline TETRAPORE_ABI
