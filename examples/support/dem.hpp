@@ -146,7 +146,7 @@ class dem {
       slow_down();
       move(dt);
     }
-    throw tp::packing_error("the grains", "an unbalanced force of " + std::to_string(unbalanced()), "rest");
+    throw tp::packing_error("the grains", "an unbalanced force of " + tp::short_number(unbalanced()), "rest");
   }
 
   /// Shortens the box evenly over its height, all grains with it, until the piston carries its load; then lets the

@@ -260,7 +260,7 @@ template <class Flow>
     const double theory = terzaghi::settlement(time);
     out.settlement_error = std::max(out.settlement_error, std::abs(settled - theory));
     if (!std::isfinite(settled)) {
-      throw tp::packing_error("the column at T = " + std::to_string(time), "no finite settlement", "a stable step");
+      throw tp::packing_error("the column at T = " + tp::short_number(time), "no finite settlement", "a stable step");
     }
     if (time >= next_row) {
       out.settlement.push_back({time, settled, theory});

@@ -22,8 +22,8 @@ class pvd_series {
   /// \param file  where the data of this time lie; named relative to the list, so that the folder can be moved
   void add(double time, const std::filesystem::path& file) {
     if (!std::isfinite(time) || (!entries_.empty() && !(time > entries_.back().time))) {
-      throw parameter_error("time of " + file.string(), std::to_string(time),
-                            entries_.empty() ? "a finite number" : "more than " + std::to_string(entries_.back().time));
+      throw parameter_error("time of " + file.string(), short_number(time),
+                            entries_.empty() ? "a finite number" : "more than " + short_number(entries_.back().time));
     }
     entries_.push_back({time, file.lexically_proximate(path_.parent_path()).generic_string()});
   }

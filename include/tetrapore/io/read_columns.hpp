@@ -146,7 +146,7 @@ inline void refuse_bad_box(const box& b, const std::string& where) {
   for (std::size_t k = 0; k < 3; ++k) {
     if (!(b.lo[k] < b.hi[k]) || !std::isfinite(b.hi[k] - b.lo[k])) {
       throw input_error(
-          where, "a box from " + std::to_string(b.lo[k]) + " to " + std::to_string(b.hi[k]) + " along " + axis_name[k],
+          where, "a box from " + short_number(b.lo[k]) + " to " + short_number(b.hi[k]) + " along " + axis_name[k],
           "finite bounds, the lower one first");
     }
   }
@@ -169,13 +169,13 @@ class grain_collector {
   grain_collector(const read_options& options, read_report& report) : options_(options), report_(report) {
     const auto positive = [](double v) { return v > 0 && std::isfinite(v); };
     if (!positive(options.scale)) {
-      throw parameter_error("scale", std::to_string(options.scale), "metres per unit of the file, above 0");
+      throw parameter_error("scale", short_number(options.scale), "metres per unit of the file, above 0");
     }
     if (!positive(options.radius_factor)) {
-      throw parameter_error("radius_factor", std::to_string(options.radius_factor), "a number above 0");
+      throw parameter_error("radius_factor", short_number(options.radius_factor), "a number above 0");
     }
     if (options.radius && !positive(*options.radius)) {
-      throw parameter_error("radius", std::to_string(*options.radius), "a length above 0");
+      throw parameter_error("radius", short_number(*options.radius), "a length above 0");
     }
     if (options.longest_line == 0) {
       throw parameter_error("longest_line", "0", "a number of bytes above 0");
@@ -190,7 +190,7 @@ class grain_collector {
       throw input_error(where(), "a centre that is not finite", "finite coordinates [m]");
     }
     if (!(g.radius > 0) || !std::isfinite(g.radius)) {
-      throw input_error(where(), "radius " + std::to_string(radius), "a finite radius above 0");
+      throw input_error(where(), "radius " + short_number(radius), "a finite radius above 0");
     }
     grains_.push_back(g);
   }

@@ -68,8 +68,8 @@ inline nfo read_nfo(byte_source& bytes, const read_options& options, read_report
     }
   }
   if (theoretical && final_porosity && std::abs(*theoretical - *final_porosity) > 1e-9) {
-    report.warnings.push_back("the .nfo file states porosity " + std::to_string(*theoretical) +
-                              " for the diameters and " + std::to_string(*final_porosity) +
+    report.warnings.push_back("the .nfo file states porosity " + short_number(*theoretical) +
+                              " for the diameters and " + short_number(*final_porosity) +
                               " at the end: radii may need a factor");
   }
   return n;

@@ -98,7 +98,7 @@ inline statoil_report write_statoil(const std::filesystem::path& prefix, const n
     }
     for (std::size_t k = 0; k < rows; ++k) {
       if (!(values[k] >= 0) || !std::isfinite(values[k])) {
-        throw parameter_error(std::string(name) + " " + std::to_string(k), std::to_string(values[k]),
+        throw parameter_error(std::string(name) + " " + std::to_string(k), short_number(values[k]),
                               "a finite number, not negative");
       }
     }

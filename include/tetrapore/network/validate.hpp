@@ -31,7 +31,7 @@ void expect_size(const std::vector<T>& column, const char* name, std::size_t n, 
 
 inline void expect_finite(double x, const std::string& where, const char* what) {
   if (!std::isfinite(x)) {
-    throw network_error(where, std::string(what) + " = " + std::to_string(x), "a finite number");
+    throw network_error(where, std::string(what) + " = " + short_number(x), "a finite number");
   }
 }
 
@@ -71,7 +71,7 @@ inline void validate(const network& net, const validation& how = {}) {
       detail::expect_finite(a.grains[g].centre[k], where, "coordinate");
     }
     if (!(a.grains[g].radius > 0.0) || !std::isfinite(a.grains[g].radius)) {
-      throw network_error(where, "radius " + std::to_string(a.grains[g].radius), "a finite radius above 0");
+      throw network_error(where, "radius " + short_number(a.grains[g].radius), "a finite radius above 0");
     }
   }
   for (std::size_t i = 0; i < pores; ++i) {
@@ -120,7 +120,7 @@ inline void validate(const network& net, const validation& how = {}) {
     detail::expect_finite(a.volumes[i], where, "volume");
     detail::expect_finite(a.void_volumes[i], where, "void volume");
     if (const double shape = detail::shape_of(net, p); !(shape >= how.least_shape)) {
-      throw network_error(where, "signed volume / longest edge³ = " + std::to_string(shape),
+      throw network_error(where, "signed volume / longest edge³ = " + short_number(shape),
                           "vertices in positive order: swap two of them");
     }
   }

@@ -55,7 +55,7 @@ struct lattice_cell {
 inline packing lattice(lattice_kind kind, std::array<std::size_t, 3> cells, double radius,
                        const std::array<bool, 3>& periodic = {}) {
   if (!(radius > 0) || !std::isfinite(radius)) {
-    throw parameter_error("radius", std::to_string(radius), "a finite number above 0");
+    throw parameter_error("radius", short_number(radius), "a finite number above 0");
   }
   if (cells[0] == 0 || cells[1] == 0 || cells[2] == 0) {
     throw parameter_error("cells", "0 along an axis", "at least 1 along each");

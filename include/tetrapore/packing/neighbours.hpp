@@ -95,8 +95,8 @@ class size_class_grids {
       const double away = std::abs(grains_[i].centre[k] - region_.lo[k]);
       if (periodic_[k] && !(away <= 50.0 * length && 2.0 * largest + reach_ <= 20.0 * length)) {
         throw packing_error("grain " + std::to_string(i),
-                            "a place or a reach of " + std::to_string(away / length) + " and " +
-                                std::to_string((2.0 * largest + reach_) / length) + " box lengths along " + "xyz"[k],
+                            "a place or a reach of " + short_number(away / length) + " and " +
+                                short_number((2.0 * largest + reach_) / length) + " box lengths along " + "xyz"[k],
                             "at most 50 and 20; wrap the packing first");
       }
     }

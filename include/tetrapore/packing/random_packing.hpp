@@ -270,10 +270,10 @@ inline packing random_packing(std::span<const double> radii, const random_packin
                               random_packing_report* report = nullptr) {
   const double phi = options.solid_fraction;
   if (!(phi > 0 && phi < 0.9)) {
-    throw parameter_error("solid_fraction", std::to_string(phi), "a number above 0 and below 0.9");
+    throw parameter_error("solid_fraction", short_number(phi), "a number above 0 and below 0.9");
   }
   if (!(options.gap >= 1e-12 && options.gap <= 0.1)) {
-    throw parameter_error("gap", std::to_string(options.gap), "a number from 1e-12 to 0.1");
+    throw parameter_error("gap", short_number(options.gap), "a number from 1e-12 to 0.1");
   }
   if (radii.empty()) {
     throw parameter_error("radii", "none", "at least one");
@@ -282,7 +282,7 @@ inline packing random_packing(std::span<const double> radii, const random_packin
   double largest = 0;
   for (const double r : radii) {
     if (!(r > 0) || !std::isfinite(r)) {
-      throw parameter_error("radii", std::to_string(r), "finite numbers above 0");
+      throw parameter_error("radii", short_number(r), "finite numbers above 0");
     }
     cubes += r * r * r;
     largest = std::max(largest, r);
@@ -297,7 +297,7 @@ inline packing random_packing(std::span<const double> radii, const random_packin
   p.periodic = options.periodic;
   for (std::size_t k = 0; k < 3; ++k) {
     if (!(p.bounds->hi[k] > 2.0 * largest * (1.0 + options.gap))) {
-      throw parameter_error("aspect", "a box of " + std::to_string(p.bounds->hi[k] / largest) + " largest radii",
+      throw parameter_error("aspect", "a box of " + short_number(p.bounds->hi[k] / largest) + " largest radii",
                             "one that holds the largest grain");
     }
   }
@@ -321,8 +321,8 @@ inline packing random_packing(std::span<const double> radii, const random_packin
   }
   const auto overlap = largest_overlap(p);
   if (!apart || overlap.grains > 0 || overlap.walls > 0) {
-    throw packing_error("random packing of solid fraction " + std::to_string(phi),
-                        "an overlap of " + std::to_string(std::max(overlap.grains, overlap.walls)) + " radii after " +
+    throw packing_error("random packing of solid fraction " + short_number(phi),
+                        "an overlap of " + short_number(std::max(overlap.grains, overlap.walls)) + " radii after " +
                             std::to_string(counted.iterations) + " iterations",
                         "none; a lower solid fraction relaxes");
   }

@@ -18,7 +18,7 @@ namespace detail {
 
 inline void check_positive(const char* name, double value) {
   if (!(value > 0) || !std::isfinite(value)) {
-    throw parameter_error(name, std::to_string(value), "a finite number above 0");
+    throw parameter_error(name, short_number(value), "a finite number above 0");
   }
 }
 
@@ -33,7 +33,7 @@ inline void check_positive(const char* name, double value) {
 inline std::vector<double> uniform_radii(std::size_t n, double mean, double spread) {
   detail::check_positive("mean radius", mean);
   if (!(spread >= 0 && spread < 1)) {
-    throw parameter_error("spread", std::to_string(spread), "a number from 0 to below 1");
+    throw parameter_error("spread", short_number(spread), "a number from 0 to below 1");
   }
   std::vector<double> radii(n);
   for (std::size_t k = 0; k < n; ++k) {
@@ -48,7 +48,7 @@ inline std::vector<double> uniform_radii(std::size_t n, double mean, double spre
 inline std::vector<double> lognormal_radii(std::size_t n, double median, double sigma) {
   detail::check_positive("median radius", median);
   if (!(sigma >= 0 && sigma < 2)) {
-    throw parameter_error("sigma of ln r", std::to_string(sigma), "a number from 0 to below 2");
+    throw parameter_error("sigma of ln r", short_number(sigma), "a number from 0 to below 2");
   }
   std::vector<double> radii(n);
   double x = -8.0;
@@ -82,8 +82,8 @@ inline std::vector<double> radii_by_mass(std::size_t n, std::span<const mass_bel
   if (curve.size() < 2 || curve.front().fraction != 0.0 || curve.back().fraction != 1.0) {
     throw parameter_error("grading curve",
                           curve.empty() ? "no points"
-                                        : "mass fractions from " + std::to_string(curve.front().fraction) + " to " +
-                                              std::to_string(curve.back().fraction),
+                                        : "mass fractions from " + short_number(curve.front().fraction) + " to " +
+                                              short_number(curve.back().fraction),
                           "at least two points, from fraction 0 to fraction 1");
   }
   std::vector<double> number(curve.size(), 0.0);  // cumulative, of grains, up to a factor
@@ -96,8 +96,7 @@ inline std::vector<double> radii_by_mass(std::size_t n, std::span<const mass_bel
     const double d1 = curve[k].diameter;
     const double mass = curve[k].fraction - curve[k - 1].fraction;
     if (!(d1 >= d0) || !(mass >= 0)) {
-      throw parameter_error(point(k),
-                            "diameter " + std::to_string(d1) + ", fraction " + std::to_string(curve[k].fraction),
+      throw parameter_error(point(k), "diameter " + short_number(d1) + ", fraction " + short_number(curve[k].fraction),
                             "values that do not fall");
     }
     // ∫ mass/(d1 - d0) d⁻³ dd = mass (d0 + d1) / (2 d0² d1²), which is also right for a step.

@@ -134,7 +134,7 @@ inline wrap_report wrap(packing& p, double tolerance = 1e-9) {
       const double x = p.grains[i].centre[axis];
       if (d.is_periodic(axis) && !(std::abs(x - d.bounds.lo[axis]) <= 1e6 * d.bounds.size()[axis])) {
         throw packing_error("grain " + std::to_string(i),
-                            std::string("centre ") + "xyz"[axis] + " = " + std::to_string(x),
+                            std::string("centre ") + "xyz"[axis] + " = " + short_number(x),
                             "a place within a million box lengths of the box");
       }
     }

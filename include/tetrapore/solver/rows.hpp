@@ -84,8 +84,8 @@ struct weighted_graph {
     for (std::size_t k = 0; k < one_way.size(); ++k) {
       if (!(one_way[k] == back[k])) {
         throw network_error(row_name(low),
-                            std::to_string(one_way[k]) + " for row " + std::to_string(high) + ", which holds " +
-                                std::to_string(back[k]),
+                            short_number(one_way[k]) + " for row " + std::to_string(high) + ", whose own differs by " +
+                                short_number(back[k] - one_way[k]),
                             "a symmetric matrix");
       }
       edges.push_back({low, high});

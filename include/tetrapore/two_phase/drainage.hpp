@@ -210,7 +210,7 @@ class drainage {
       throw parameter_error("inlet and outlet", "both contain " + describe(common), "different faces");
     }
     if (!(options_.level_margin >= 0) || !std::isfinite(options_.level_margin)) {
-      throw parameter_error("level_margin", std::to_string(options_.level_margin), "a finite number, 0 or more");
+      throw parameter_error("level_margin", short_number(options_.level_margin), "a finite number, 0 or more");
     }
   }
 

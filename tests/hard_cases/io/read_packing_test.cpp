@@ -83,6 +83,7 @@ TEST_CASE("a radius of 0, below 0 or not finite is refused with its line") {
   for (const char* bad : {"0", "-0.25", "-0"}) {
     says(refusal(std::string("0 0 0 1\n0 0 1 ") + bad + "\n"), {"p.txt:2", "radius", "above 0"});
   }
+  says(refusal("0 0 0 1\n0 0 1 -1e-7\n"), {"p.txt:2: found radius -1e-07"});
   says(refusal("0 0 0 1\n0 0 1 inf\n"), {"p.txt:2", "\"inf\""});
 }
 
@@ -105,6 +106,7 @@ TEST_CASE("rows of another width and columns that are not there are refused") {
 TEST_CASE("a box that is inverted, empty, not finite or cut short is refused with its line") {
   says(refusal("# box 0 1 1 0 0 1\n0 0 0 1\n"), {"p.txt:1", "along y", "the lower one first"});
   says(refusal("# box 0 0 0 1 0 1\n0 0 0 1\n"), {"p.txt:1", "along x"});
+  says(refusal("# box 1e-7 -2e-7 0 1 0 1\n0 0 0 1\n"), {"a box from 1e-07 to -2e-07 along x"});
   says(refusal("# box 0 1 0 1 0 inf\n0 0 0 1\n"), {"p.txt:1", "\"inf\""});
   says(refusal("# box 0 1 0 1 0\n0 0 0 1\n"), {"p.txt:1", "x0 x1 y0 y1 z0 z1"});
   says(refusal("# box 0 1 0 1 0 1\n# box 0 1 0 1 0 1\n0 0 0 1\n"), {"p.txt:2", "a second box"});
@@ -181,5 +183,7 @@ TEST_CASE("options outside their domain are refused by name") {
     CHECK(contains(message_of<parameter_error>([&] { return read_packing_from_memory("0 0 0", "p", {.radius = bad}); }),
                    "radius"));
   }
+  says(message_of<parameter_error>([] { return read_packing_from_memory("0 0 0 1", "p", {.scale = -1e-7}); }),
+       {"scale: found -1e-07"});
   CHECK_FALSE(message_of<parameter_error>([] { return io::column(-1); }).empty());
 }

@@ -181,6 +181,20 @@ TEST_CASE("generators refuse what they cannot do, and say what is possible") {
   CHECK_FALSE(message_of<parameter_error>([] { return lattice(lattice_kind::simple_cubic, {2, 0, 2}, 1.0); }).empty());
 }
 
+TEST_CASE("a message shows a small number as it is") {
+  says(message_of<parameter_error>([] { return uniform_radii(5, -1e-7, 0.5); }), {"mean radius: found -1e-07"});
+  says(message_of<parameter_error>([] { return uniform_radii(5, 1.0, -2e-9); }), {"spread: found -2e-09"});
+  says(message_of<parameter_error>([] {
+         return lattice(lattice_kind::simple_cubic, {2, 2, 2}, -1e-7);
+       }),
+       {"radius: found -1e-07"});
+  const std::vector<double> radii{1e-4, -1e-7};
+  says(message_of<parameter_error>([&] { return random_packing(radii, {.solid_fraction = 0.5}); }),
+       {"radii: found -1e-07"});
+  says(message_of<parameter_error>([&] { return random_packing(radii, {.solid_fraction = 0.5, .gap = 1e-13}); }),
+       {"gap: found 1e-13"});
+}
+
 TEST_CASE("a grading curve whose file is wrong is refused with its line") {
   const auto refused = [](std::string_view text) {
     return message_of<input_error>([&] { return io::read_sizes_from_memory(text, "psd.csv"); });
