@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "tetrapore/network/connect.hpp"
+#include "support/small_networks.hpp"
 
-#include <map>
-#include <set>
+#include <array>
+#include <vector>
 
 /// \file
 /// Cells written down by hand, flat ones among them.
@@ -22,43 +22,19 @@ struct named_cell {
     }
     return c;
   }
+  operator tetrapore::cell() const {
+    tetrapore::cell c{.images = images};
+    for (std::size_t k = 0; k < 4; ++k) {
+      c.vertices[k] = tetrapore::vertex(tetrapore::grain_id(grains[k]));
+    }
+    return c;
+  }
 };
 
-/// Neighbours are the two cells that name the same three grains; where flat cells lie on each other, four or more do,
-/// and pair up in the order in which they are listed. A cell with negative volume is turned; flat ones stay as given.
 [[nodiscard]] inline std::vector<tetrapore::cell> paired(const tetrapore::domain& region,
                                                          const std::vector<tetrapore::sphere<double>>& grains,
                                                          const std::vector<named_cell>& names) {
-  using namespace tetrapore;
-  std::vector<cell> cells;
-  std::map<std::set<vertex>, std::pair<std::size_t, std::size_t>> open;
-  for (const auto& name : names) {
-    cell c;
-    std::array<vec3<double>, 4> at;
-    for (std::size_t k = 0; k < 4; ++k) {
-      c.vertices[k] = vertex(grain_id(name.grains[k]));
-      c.images[k] = name.images[k];
-      at[k] = grains[name.grains[k]].centre + region.shift(name.images[k]);
-    }
-    if (triple(at[1] - at[0], at[2] - at[0], at[3] - at[0]) < 0) {
-      std::swap(c.vertices[2], c.vertices[3]);
-      std::swap(c.images[2], c.images[3]);
-    }
-    const std::size_t i = cells.size();
-    cells.push_back(c);
-    for (std::size_t k = 0; k < 4; ++k) {
-      std::set<vertex> facet(c.vertices.begin(), c.vertices.end());
-      facet.erase(c.vertices[k]);
-      const auto [other, first] = open.try_emplace(facet, i, k);
-      if (!first) {
-        const auto [j, m] = other->second;
-        cells[i].neighbours[k] = static_cast<std::uint32_t>(j);
-        cells[j].neighbours[m] = static_cast<std::uint32_t>(i);
-        open.erase(other);
-      }
-    }
-  }
-  return cells;
+  return connected(region, grains, {names.begin(), names.end()});
 }
 
 /// A square pyramid of height 2 on a square pyramid of height 3 that hangs from the same square. A pyramid is two

@@ -9,37 +9,50 @@
 /// \file
 /// Networks small enough to be known by heart, made without a triangulation.
 
-/// Cells given by their vertices alone, connected where two share three vertices; a cell whose order is negative is
-/// turned. Volumes, void volumes and power centres are made up from the index of the cell.
-[[nodiscard]] inline tetrapore::network network_of(const tetrapore::domain& region,
-                                                   std::vector<tetrapore::sphere<double>> grains,
-                                                   const std::vector<std::array<tetrapore::vertex, 4>>& vertices) {
+/// Finds neighbours: the two cells that name the same three vertices; where flat cells lie on each other, four or more
+/// do, and pair up in the order in which they are listed. A cell with negative volume is turned; flat ones stay.
+[[nodiscard]] inline std::vector<tetrapore::cell> connected(const tetrapore::domain& region,
+                                                            const std::vector<tetrapore::sphere<double>>& grains,
+                                                            std::vector<tetrapore::cell> cells) {
   using namespace tetrapore;
-  const auto toward = [&](vertex v, const vec3<double>& from) {
-    return v.is_wall() ? -region.wall(v.wall()).normal : grains[v.grain().index()].centre - from;
-  };
-  std::vector<cell> cells;
   std::map<std::set<vertex>, std::pair<std::size_t, std::size_t>> open;
-  for (const auto& given : vertices) {
-    cell c;
-    c.vertices = given;
-    const vec3<double> o = grains[given[0].grain().index()].centre;
-    if (triple(toward(given[1], o), toward(given[2], o), toward(given[3], o)) < 0) {
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    cell& c = cells[i];
+    const auto place = [&](std::size_t k) {
+      return grains[c.vertices[k].grain().index()].centre + region.shift(c.images[k]);
+    };
+    const auto toward = [&](std::size_t k) {
+      return c.vertices[k].is_wall() ? -region.wall(c.vertices[k].wall()).normal : place(k) - place(0);
+    };
+    if (triple(toward(1), toward(2), toward(3)) < 0) {
       std::swap(c.vertices[2], c.vertices[3]);
+      std::swap(c.images[2], c.images[3]);
     }
-    const std::size_t i = cells.size();
-    cells.push_back(c);
     for (std::size_t k = 0; k < 4; ++k) {
       std::set<vertex> facet(c.vertices.begin(), c.vertices.end());
       facet.erase(c.vertices[k]);
       const auto [other, first] = open.try_emplace(facet, i, k);
       if (!first) {
         const auto [j, m] = other->second;
-        cells[i].neighbours[k] = static_cast<std::uint32_t>(j);
+        c.neighbours[k] = static_cast<std::uint32_t>(j);
         cells[j].neighbours[m] = static_cast<std::uint32_t>(i);
+        open.erase(other);
       }
     }
   }
+  return cells;
+}
+
+/// Cells given by their vertices alone. Volumes, void volumes and power centres are made up from the index of the cell.
+[[nodiscard]] inline tetrapore::network network_of(const tetrapore::domain& region,
+                                                   std::vector<tetrapore::sphere<double>> grains,
+                                                   const std::vector<std::array<tetrapore::vertex, 4>>& vertices) {
+  using namespace tetrapore;
+  std::vector<cell> cells;
+  for (const auto& v : vertices) {
+    cells.push_back({.vertices = v});
+  }
+  cells = connected(region, grains, std::move(cells));
   network_arrays a = connect(region, std::move(grains), std::move(cells));
   for (std::size_t i = 0; i < a.pore_vertices.size(); ++i) {
     a.power_centres.push_back({static_cast<double>(i), 0.5, -1.0});
