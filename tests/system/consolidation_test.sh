@@ -2,27 +2,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # consolidation_test.sh FOLDER: runs the program FOLDER/consolidation on small columns with every option and bad input,
 # and checks the keys on stdout, the files, the messages and the exit codes.
-set -uo pipefail
-binary=$(realpath "$1")/consolidation
 source "$(dirname "$(realpath "${BASH_SOURCE[0]}")")/common.sh"
-make_packing box >beads.txt
-make_packing none >no_box.txt
 
 keys="grains height porosity permeability modulus viscosity c_v consolidation_over_wave_time time_step drag_step_bound \
 initial_pressure settlement_final settlement_error_max pressure_error_max pressure_error_rms mass_defect \
 swept_volume_defect steps rebuilds unsolved_steps seconds_packing seconds_coupled peak_rss_mb"
 files="profiles.csv profiles.svg settlement.csv settlement.svg"
 
-# runs TITLE ARGUMENTS…: must succeed, with the keys in their order and all files.
-runs() {
-  title=$1
-  shift
-  rm -rf out
-  "$binary" "$@" --out out >stdout 2>stderr || fail "$title: exit code $? ($(tail -n 1 stderr))"
-  local found
-  found=$(sed -n 's/^\([a-z0-9_]*\)=.*/\1/p' stdout | tr '\n' ' ')
-  [ "$(echo $found)" = "$(echo $keys)" ] || fail "$title: keys are: $found"
-  [ "$(cd out && echo *)" = "$files" ] || fail "$title: files are: $(cd out && echo *)"
+every_run() {
   # of columns a few grains wide, that are asked to drain not much slower than a wave passes
   expect settlement_error_max "< 0.15"
   expect pressure_error_rms "< 0.15"
@@ -31,22 +18,6 @@ runs() {
   expect unsolved_steps "== 0"
   expect drag_step_bound "> 0"
   expect c_v "> 0"
-  if command -v xmllint >/dev/null; then
-    xmllint --noout out/settlement.svg out/profiles.svg || fail "$title: XML"
-  fi
-}
-
-# refuses TITLE MESSAGE ARGUMENTS…: must exit with 2, say MESSAGE (a regular expression), and write nothing.
-refuses() {
-  title=$1
-  local message=$2 code=0
-  shift 2
-  rm -rf out
-  "$binary" "$@" --out out >stdout 2>stderr || code=$?
-  [ "$code" = 2 ] || fail "$title: exit code $code, expected 2"
-  grep -Eq -- "$message" stderr || fail "$title: said '$(cat stderr)', expected '$message'"
-  [ ! -s stdout ] || fail "$title: wrote on stdout"
-  [ ! -e out ] && [ ! -e consolidation_out ] || fail "$title: wrote files"
 }
 
 small="--grains 120 --slenderness 2 --end 0.11"
@@ -75,10 +46,7 @@ runs "smaller step of the load" $small --step 0.005
 runs "grains from a file" beads.txt --end 0.06
 [ "$(value grains)" = 343 ] || fail "grains=$(value grains)"
 
-"$binary" --help >stdout 2>stderr || fail "help: exit code $?"
-for option in --grains --slenderness --seed --modulus --stress --step --slowness --end --refresh-every --rebuild-every --out; do
-  grep -q -- "$option" stdout || fail "help does not name $option"
-done
+helps --grains --slenderness --seed --modulus --stress --step --slowness --end --refresh-every --rebuild-every --out
 
 refuses "unknown option" "surprise" --surprise
 refuses "no number" "--end" --end soon
@@ -92,10 +60,5 @@ refuses "never a conductance" "--refresh-every: found 0, expected at least 1" --
 refuses "too few" "--grains: found 20, expected at least 50" --grains 20
 refuses "missing file" "absent.txt: found .*No such file" absent.txt
 refuses "no box" "the packing: found .*expected a box with six walls" no_box.txt
-title="a folder that cannot be"
-touch taken
-code=0
-"$binary" $small --out taken/here >stdout 2>stderr || code=$?
-[ "$code" = 1 ] || fail "$title: exit code $code, expected 1"
-[ ! -s stdout ] || fail "$title: wrote on stdout"
+cannot_write $small
 report
