@@ -7,6 +7,7 @@
 // grains take over and the column settles. Terzaghi's theory says how fast, from two numbers that are measured on the
 // same grains: their permeability, by a steady flow, and their stiffness, by the same load step without water.
 // `consolidation --help` lists the options.
+#include "support/keys.hpp"
 #include "support/oedometer.hpp"
 #include "support/plot.hpp"
 #include "support/stopwatch.hpp"
@@ -99,8 +100,8 @@ void run(const job& j) {
   std::fprintf(stderr, "wrote %s\n", j.out.string().c_str());
 
   const support::soil& s = c.ground;
-  const auto say = [](const char* key, double value) { std::printf("%s=%.6g\n", key, value); };
-  say("grains", static_cast<double>(column.grains.size()));
+  const support::key_printer say{.digits = 6};
+  say("grains", column.grains.size());
   say("height", s.height);
   say("porosity", s.porosity);
   say("permeability", s.permeability);
@@ -117,9 +118,9 @@ void run(const job& j) {
   say("pressure_error_rms", c.pressure_error_rms);
   say("mass_defect", c.mass_defect);
   say("swept_volume_defect", c.volume_defect);
-  say("steps", static_cast<double>(c.steps));
-  say("rebuilds", static_cast<double>(c.rebuilds));
-  say("unsolved_steps", static_cast<double>(c.unsolved));
+  say("steps", c.steps);
+  say("rebuilds", c.rebuilds);
+  say("unsolved_steps", c.unsolved);
   say("seconds_packing", seconds_packing);
   say("seconds_coupled", seconds_coupled);
   say("peak_rss_mb", support::peak_rss_mb());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "support/drainage_job.hpp"
+#include "support/keys.hpp"
 #include "support/stopwatch.hpp"
 
 #include "tetrapore/geometry/inscribed.hpp"
@@ -276,40 +277,39 @@ inline void print_table(const tp::retention_curve& c, const summary& s) {
 
 inline void print_keys(const summary& s, const seconds& t) {
   using enum tp::entry_status;
-  const auto number = [](const char* key, double value) { std::printf("%s=%.10g\n", key, value); };
-  const auto count = [](const char* key, std::size_t value) { std::printf("%s=%zu\n", key, value); };
-  count("grains", s.grains);
-  count("pores", s.pores);
-  count("throats", s.throats);
-  count("hidden", s.hidden);
-  number("porosity", s.porosity);
-  number("volume_defect", s.volume_defect);
-  count("entry_ok", s.count(ok));
-  count("entry_gap_limited", s.count(gap_limited));
-  count("entry_merged", s.merged);
-  count("entry_no_hole", s.count(no_hole));
-  count("entry_dry", s.count(dry_corner));
-  count("entry_closed", s.count(closed));
-  count("entry_refused", s.count(not_covered) + s.count(invalid_input) + s.count(not_converged));
-  number("pc_s90", s.pressure_at[0]);
-  number("pc_s70", s.pressure_at[1]);
-  number("pc_s50", s.pressure_at[2]);
-  number("pc_s30", s.pressure_at[3]);
-  number("residual_saturation", s.residual_saturation);
-  number("residual_interior", s.residual_interior);
-  count("trapped_clusters", s.trapped_clusters);
+  const key_printer say;
+  say("grains", s.grains);
+  say("pores", s.pores);
+  say("throats", s.throats);
+  say("hidden", s.hidden);
+  say("porosity", s.porosity);
+  say("volume_defect", s.volume_defect);
+  say("entry_ok", s.count(ok));
+  say("entry_gap_limited", s.count(gap_limited));
+  say("entry_merged", s.merged);
+  say("entry_no_hole", s.count(no_hole));
+  say("entry_dry", s.count(dry_corner));
+  say("entry_closed", s.count(closed));
+  say("entry_refused", s.count(not_covered) + s.count(invalid_input) + s.count(not_converged));
+  say("pc_s90", s.pressure_at[0]);
+  say("pc_s70", s.pressure_at[1]);
+  say("pc_s50", s.pressure_at[2]);
+  say("pc_s30", s.pressure_at[3]);
+  say("residual_saturation", s.residual_saturation);
+  say("residual_interior", s.residual_interior);
+  say("trapped_clusters", s.trapped_clusters);
   if (!std::isnan(s.bond_number)) {
-    number("bond_number", s.bond_number);
+    say("bond_number", s.bond_number);
   }
-  number("van_genuchten_alpha", s.fitted.value.law.alpha);
-  number("van_genuchten_n", s.fitted.value.law.n);
-  number("fit_rms", s.fitted.value.rms);
-  number("seconds_read", t.read);
-  number("seconds_tessellation", t.tessellation);
-  number("seconds_laws", t.laws);
-  number("seconds_invasion", t.invasion);
-  number("seconds_write", t.write);
-  number("peak_rss_mb", peak_rss_mb());
+  say("van_genuchten_alpha", s.fitted.value.law.alpha);
+  say("van_genuchten_n", s.fitted.value.law.n);
+  say("fit_rms", s.fitted.value.rms);
+  say("seconds_read", t.read);
+  say("seconds_tessellation", t.tessellation);
+  say("seconds_laws", t.laws);
+  say("seconds_invasion", t.invasion);
+  say("seconds_write", t.write);
+  say("peak_rss_mb", peak_rss_mb());
 }
 
 }  // namespace support

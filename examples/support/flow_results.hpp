@@ -3,6 +3,7 @@
 
 #include "support/flow_choices.hpp"
 #include "support/gradient_slice.hpp"
+#include "support/keys.hpp"
 #include "support/plot.hpp"
 
 #include "tetrapore/io/csv.hpp"
@@ -188,37 +189,36 @@ inline double write_flow(const flow_job& job, const flow_of_the_job& flow, const
 }
 
 inline void print_flow(const flow_of_the_job& flow, const flow_summary& s, const flow_seconds& t, double at_throats) {
-  const auto number = [](const char* key, double value) { std::printf("%s=%.10g\n", key, value); };
-  const auto count = [](const char* key, std::size_t value) { std::printf("%s=%zu\n", key, value); };
+  const key_printer say;
   const tp::flow_nodes& nodes = flow.system().nodes();
-  count("grains", flow.net().grain_count());
-  count("pores", flow.net().pore_count());
-  count("throats", flow.net().throat_count());
-  count("nodes", nodes.size());
-  count("flat_pores", nodes.flat_pores());
-  count("coincident_throats", nodes.coincident_throats());
-  count("closed_throats", flow.conductances().counts[tp::conductance_status::closed]);
-  count("refused_throats", flow.conductances().counts.refused());
-  number("permeability", s.permeability);
-  number("permeability_over_r2", s.over_r2);
-  number("flux_in", s.flux_in);
-  number("flux_out", s.flux_out);
-  number("force_total_x", s.force.x);
-  number("force_total_y", s.force.y);
-  number("force_total_z", s.force.z);
-  number("force_defect", s.force_defect);
-  number("min_pressure", s.min_pressure);
-  number("max_pressure", s.max_pressure);
-  number("contrast", flow.contrast());
-  number("dissipation_at_throats", at_throats);
-  count("iterations", s.solution.iterations);
-  number("backward_error", s.solution.backward_error);
-  number("seconds_tessellation", t.tessellation);
-  number("seconds_laws", t.laws);
-  number("seconds_setup", t.setup);
-  number("seconds_solve", t.solve);
-  number("seconds_resolve", t.resolve);
-  number("peak_rss_mb", peak_rss_mb());
+  say("grains", flow.net().grain_count());
+  say("pores", flow.net().pore_count());
+  say("throats", flow.net().throat_count());
+  say("nodes", nodes.size());
+  say("flat_pores", nodes.flat_pores());
+  say("coincident_throats", nodes.coincident_throats());
+  say("closed_throats", flow.conductances().counts[tp::conductance_status::closed]);
+  say("refused_throats", flow.conductances().counts.refused());
+  say("permeability", s.permeability);
+  say("permeability_over_r2", s.over_r2);
+  say("flux_in", s.flux_in);
+  say("flux_out", s.flux_out);
+  say("force_total_x", s.force.x);
+  say("force_total_y", s.force.y);
+  say("force_total_z", s.force.z);
+  say("force_defect", s.force_defect);
+  say("min_pressure", s.min_pressure);
+  say("max_pressure", s.max_pressure);
+  say("contrast", flow.contrast());
+  say("dissipation_at_throats", at_throats);
+  say("iterations", s.solution.iterations);
+  say("backward_error", s.solution.backward_error);
+  say("seconds_tessellation", t.tessellation);
+  say("seconds_laws", t.laws);
+  say("seconds_setup", t.setup);
+  say("seconds_solve", t.solve);
+  say("seconds_resolve", t.resolve);
+  say("peak_rss_mb", peak_rss_mb());
 }
 
 }  // namespace support
