@@ -96,7 +96,7 @@ void run(const drainage_job& job) {
 
 int main(int argc, char** argv) {
   try {
-    if (const auto job = support::read_command_line(argc, argv, shipped)) {
+    if (const auto job = support::read_drainage_job(argc, argv, shipped)) {
       run(*job);
     }
     return 0;

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "support/grains.hpp"
 #include "support/options.hpp"
+#include "support/packing_options.hpp"
 
 #include <CLI/CLI.hpp>
 
-#include <cstdio>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -16,7 +15,7 @@
 
 namespace support {
 
-struct drainage_job : grain_source {
+struct drainage_job : packing_job {
   double surface_tension = 0.072;  ///< [N/m]
   double contact_angle = 0;        ///< [degrees]
   std::string entry = "msp";
@@ -25,30 +24,23 @@ struct drainage_job : grain_source {
   tetrapore::face outlet = tetrapore::face::y_min;
   bool trapping = true;
   std::optional<double> density;  ///< difference of the two fluids [kg/m³]
-  std::filesystem::path out = "primary_drainage_out";
 };
 
 /// Reads the command line; empty when only help was asked for, which is then printed.
 /// \throw tetrapore::parameter_error  names the option, what it was given and what it takes
-[[nodiscard]] inline std::optional<drainage_job> read_command_line(int argc, char** argv,
+[[nodiscard]] inline std::optional<drainage_job> read_drainage_job(int argc, char** argv,
                                                                    const std::filesystem::path& shipped) {
   drainage_job job;
-  std::string packing = shipped.string();
   std::string tension = "0.072";
   std::string angle = "0";
   std::string inlet = "y_max";
   std::string outlet = "y_min";
-  std::string periodic;
-  std::string scale = "1";
   std::string density;
-  std::string out = job.out.string();
   bool no_walls = false;
   bool no_trapping = false;
 
   CLI::App app("Primary drainage of a packing of spheres: its retention curve, pictures and history.",
                "primary_drainage");
-  app.add_option("PACKING", packing, "file of spheres: text, CSV, LAMMPS/LIGGGHTS dump, .xyzd, pack.out, Yade export")
-      ->capture_default_str();
   app.add_option("--surface-tension", tension, "surface tension [N/m]")->capture_default_str();
   app.add_option("--contact-angle", angle, "contact angle [degrees], 0 to below 90")->capture_default_str();
   app.add_option("--entry", job.entry, "entry law: msp (Mayer-Stowe-Princen) or inscribed (circle)")
@@ -58,23 +50,14 @@ struct drainage_job : grain_source {
       ->capture_default_str();
   app.add_option("--inlet", inlet, "face by which gas enters: x_min ... z_max")->capture_default_str();
   app.add_option("--outlet", outlet, "face by which liquid leaves")->capture_default_str();
-  app.add_option("--periodic", periodic, "axes along which the box repeats, such as xz (default: as the file says)");
   app.add_flag("--no-walls", no_walls, "open faces instead of walls: the hull of the grain centres");
   app.add_flag("--no-trapping", no_trapping, "liquid that is cut off drains all the same");
-  app.add_option("--scale", scale, "metres per unit of length of the file")->capture_default_str();
   app.add_option("--density", density, "density difference of the fluids [kg/m3]: gives the Bond number");
-  app.add_option("--out", out, "folder for the files")->capture_default_str();
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp&) {
-    std::fputs(app.help().c_str(), stdout);
+  packing_options common(app, shipped);
+  if (!common.read(argc, argv, job)) {
     return std::nullopt;
-  } catch (const CLI::ParseError& e) {
-    throw tetrapore::parameter_error("command line", e.what(), "options as --help lists them");
   }
 
-  const auto positive = [](double x) { return x > 0; };
-  job.path = packing;
   job.surface_tension = number_of("--surface-tension", tension, positive, "a number above 0 [N/m]");
   job.contact_angle = number_of(
       "--contact-angle", angle, [](double x) { return x >= 0 && x < 90; }, "a number from 0 to below 90 [degrees]");
@@ -85,17 +68,12 @@ struct drainage_job : grain_source {
   if (job.inlet == job.outlet) {
     refuse("--outlet", outlet, "another face than the inlet");
   }
-  if (app.count("--periodic") > 0) {
-    job.periodic = axes_of("--periodic", periodic);
-  }
   job.walls = !no_walls;
   job.trapping = !no_trapping;
-  job.scale = number_of("--scale", scale, positive, "a number above 0 [metres per unit of the file]");
   if (app.count("--density") > 0) {
     job.density = number_of(
         "--density", density, [](double x) { return x >= 0; }, "a number, not negative [kg/m3]");
   }
-  job.out = folder_of("--out", out);
   return job;
 }
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "support/grains.hpp"
 #include "support/options.hpp"
+#include "support/packing_options.hpp"
 
 #include <CLI/CLI.hpp>
 
-#include <cstdio>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -16,7 +15,7 @@
 
 namespace support {
 
-struct flow_job : grain_source {
+struct flow_job : packing_job {
   double viscosity = 1e-3;  ///< [Pa s]
   tetrapore::face inlet = tetrapore::face::y_min;
   tetrapore::face outlet = tetrapore::face::y_max;
@@ -25,7 +24,6 @@ struct flow_job : grain_source {
   std::string law = "hydraulic_radius";
   std::optional<std::size_t> gradient;  ///< periodic axis along which a mean gradient drives the flow
   std::string solver = "multigrid";
-  std::filesystem::path out = "saturated_flow_out";
 };
 
 /// Reads the command line; empty when only help was asked for, which is then printed.
@@ -33,22 +31,16 @@ struct flow_job : grain_source {
 [[nodiscard]] inline std::optional<flow_job> read_flow_job(int argc, char** argv,
                                                            const std::filesystem::path& shipped) {
   flow_job job;
-  std::string packing = shipped.string();
   std::string viscosity = "1e-3";
   std::string inlet = "y_min";
   std::string outlet = "y_max";
   std::string drop = "1";
-  std::string periodic;
   std::string gradient;
-  std::string scale = "1";
-  std::string out = job.out.string();
   bool slip = false;
   bool no_slip = false;
 
   CLI::App app("One-phase flow through a packing of spheres: its permeability, and the drag on each grain.",
                "saturated_flow");
-  app.add_option("PACKING", packing, "file of spheres: text, CSV, LAMMPS/LIGGGHTS dump, .xyzd, pack.out, Yade export")
-      ->capture_default_str();
   app.add_option("--viscosity", viscosity, "viscosity [Pa s]")->capture_default_str();
   app.add_option("--inlet", inlet, "face of the higher pressure: x_min ... z_max")->capture_default_str();
   app.add_option("--outlet", outlet, "face of pressure 0")->capture_default_str();
@@ -57,22 +49,13 @@ struct flow_job : grain_source {
   app.add_flag("--no-slip", no_slip, "the fluid sticks to walls")->excludes(slips);
   app.add_option("--law", job.law, "conductance of a throat: hydraulic_radius, mean_radius or calibrated")
       ->capture_default_str();
-  app.add_option("--periodic", periodic, "axes along which the box repeats, such as xz (default: as the file says)");
   app.add_option("--gradient", gradient, "periodic axis along which a mean gradient drives the flow, x, y or z");
   app.add_option("--solver", job.solver, "multigrid, ldlt, cg or cholmod")->capture_default_str();
-  app.add_option("--scale", scale, "metres per unit of length of the file")->capture_default_str();
-  app.add_option("--out", out, "folder for the files")->capture_default_str();
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp&) {
-    std::fputs(app.help().c_str(), stdout);
+  packing_options common(app, shipped);
+  if (!common.read(argc, argv, job)) {
     return std::nullopt;
-  } catch (const CLI::ParseError& e) {
-    throw tetrapore::parameter_error("command line", e.what(), "options as --help lists them");
   }
 
-  const auto positive = [](double x) { return x > 0; };
-  job.path = packing;
   job.viscosity = number_of("--viscosity", viscosity, positive, "a number above 0 [Pa s]");
   job.inlet = face_of("--inlet", inlet);
   job.outlet = face_of("--outlet", outlet);
@@ -83,14 +66,9 @@ struct flow_job : grain_source {
   job.slip = !no_slip;
   job.law = choice_of("--law", job.law, {"hydraulic_radius", "mean_radius", "calibrated"});
   job.solver = choice_of("--solver", job.solver, {"multigrid", "ldlt", "cg", "cholmod"});
-  if (app.count("--periodic") > 0) {
-    job.periodic = axes_of("--periodic", periodic);
-  }
   if (app.count("--gradient") > 0) {
     job.gradient = static_cast<std::size_t>(choice_of("--gradient", gradient, {"x", "y", "z"})[0] - 'x');
   }
-  job.scale = number_of("--scale", scale, positive, "a number above 0 [metres per unit of the file]");
-  job.out = folder_of("--out", out);
   return job;
 }
 
