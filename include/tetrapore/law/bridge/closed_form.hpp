@@ -83,10 +83,12 @@ template <real T>
   return difference <= a * static_cast<underlying_t<T>>(1e-6);
 }
 
-/// A range of reduced volumes V / R³ in which a fit holds.
+/// A range in which a fit holds, ends included however they were rounded.
 template <real T>
 [[nodiscard]] bool within(const T& x, double least, double largest) noexcept {
-  return value_of(x) >= static_cast<underlying_t<T>>(least) && value_of(x) <= static_cast<underlying_t<T>>(largest);
+  const auto slack = static_cast<underlying_t<T>>(1) + 16 * epsilon<T>;
+  return value_of(x) * slack >= static_cast<underlying_t<T>>(least) &&
+         value_of(x) <= static_cast<underlying_t<T>>(largest) * slack;
 }
 
 }  // namespace detail

@@ -18,8 +18,8 @@ template <real T>
 
 }  // namespace detail
 
-/// F = 2πRσ cos θ · 2d / (D + 2d): minus the derivative of the surface energy of a disc of liquid with an upright rim
-/// between two paraboloids, d = (D/2) (−1 + √(1 + 2V / πRD²)) its depth on each. Unequal radii and planes by the radius
+/// F = 2πRσ cos θ · 2d / (D + 2d): the derivative by the gap of the surface energy of a disc of liquid with an upright
+/// rim between two paraboloids, d = (D/2) (−1 + √(1 + 2V / πRD²)) its depth on each. Unequal radii and planes by the radius
 /// of Derjaguin, exact for paraboloids.
 /// \par Units   surface tension [N/m], angle [rad], result [N]
 /// \par Source  Lambert et al. 2008, Langmuir 24, 3157, Eq. (65), the energy term of Rabinovich et al. 2005; derived
@@ -48,5 +48,6 @@ struct lambert {
     return {{scale * radius * twice / (e.gap + twice)}, bridge_status::ok};
   }
 };
+static_assert(bridge_law<lambert<>>);
 
 }  // namespace tetrapore::inline TETRAPORE_ABI

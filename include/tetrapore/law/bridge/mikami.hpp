@@ -23,5 +23,6 @@ struct mikami {
     return soulie<Rupture>{surface_tension, 0.0, rupture}.bridge(e, liquid);
   }
 };
+static_assert(bridge_law<mikami<>>);
 
 }  // namespace tetrapore::inline TETRAPORE_ABI

@@ -33,5 +33,6 @@ struct rabinovich {
     return answer;
   }
 };
+static_assert(bridge_law<rabinovich<>>);
 
 }  // namespace tetrapore::inline TETRAPORE_ABI

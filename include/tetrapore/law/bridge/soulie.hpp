@@ -46,5 +46,6 @@ struct soulie {
  private:
   static constexpr double largest_angle = 50 * pi<double> / 180 * (1 + 1e-12);
 };
+static_assert(bridge_law<soulie<>>);
 
 }  // namespace tetrapore::inline TETRAPORE_ABI

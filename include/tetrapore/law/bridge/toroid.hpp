@@ -150,17 +150,20 @@ struct toroid_ring {
 
 /// The bridge whose meridian is a circle that meets both surfaces at their contact angles: suction σ (1/ρ − 1/y), ρ the
 /// radius of that circle and y that of the gorge, and the force through the gorge, πσ y (1 + y/ρ). Any two radii, a
-/// plane, unequal angles. Its mean curvature is not constant, so it is no bridge at equilibrium: its force is not minus
-/// the derivative of an energy.
+/// plane, unequal angles. Its mean curvature is not constant, so it is no bridge at equilibrium: its force is no derivative
+/// of an energy. Under a volume it has rings far beyond the true rupture, which the rule (with the mean
+/// of the angles) cuts off; under a suction it ruptures by itself.
 /// \par Units   surface tension [N/m], angles [rad], force [N]
 /// \par Domain  meridians that bend inwards, with the gorge between the contact lines, ρ up to 1000 times the smaller
-///              radius: not_covered beyond; a gap without such a ring of that volume or suction: ruptured
+///              radius: not_covered beyond
 /// \par Source  Haines 1925, J. Agric. Sci. 15, 529; Fisher 1926, ibid. 16, 492 (gorge); the ring of unequal radii and
 ///              angles, and its volume, derived here
+template <class Rupture = willett_rupture>
 struct toroid {
   required<double> surface_tension;
   double contact_angle1 = 0;
   double contact_angle2 = 0;
+  Rupture rupture = {};
 
   template <real T>
   [[nodiscard]] outcome<toroid_ring<T>, bridge_status> bridge(const edge<T>& e, given_volume<T> liquid) const noexcept {
@@ -174,12 +177,15 @@ struct toroid {
     if (e.gap < T(0)) {
       return none<T>(bridge_status::not_covered);
     }
+    if (value_of(e.gap) > rupture.gap(e, liquid.value, (contact_angle1 + contact_angle2) / 2)) {
+      return none<T>(bridge_status::ruptured);
+    }
     const shape<T> s = shape_of(e);
     // the depth of a disc of liquid with an upright rim (Derjaguin), in terms of the rim's circle
     const T radius = detail::derjaguin_radius(e);
-    const T cosine = detail::fit_number<T>((std::cos(contact_angle1) + std::cos(contact_angle2)) / 2);
-    const T guess = (e.gap * T(0.5) + detail::immersion(e.gap, liquid.value, radius)) / cosine;
-    return solve(e, s, guess, s.largest, [&](const toroid_ring<T>& r) { return r.volume / liquid.value - T(1); });
+    const T guess = (e.gap + T(2) * detail::immersion(e.gap, liquid.value, radius)) / (s.cos1 + s.cos2);
+    return solve(e, s, guess, s.largest,
+                 [&](const circle<T>& c) { return volume_of(e, s, c) / liquid.value - T(1); });
   }
 
   template <real T>
@@ -193,10 +199,11 @@ struct toroid {
       return none<T>(bridge_status::not_covered);
     }
     const shape<T> s = shape_of(e);
-    const T tension = detail::fit_number<T>(surface_tension);
-    const bool drawn = tied.value * s.largest > tension;  // the arc of this suction alone is narrower than the widest
-    const T widest = drawn ? tension / tied.value : s.largest;
-    return solve(e, s, widest * T(0.5), widest, [&](const toroid_ring<T>& r) { return (tied.value - r.suction) * r.arc / tension; });
+    const T per_tension = tied.value / detail::fit_number<T>(surface_tension);
+    const bool drawn = per_tension * s.largest > T(1);  // the arc of this suction alone is narrower than the widest
+    const T widest = drawn ? T(1) / per_tension : s.largest;
+    return solve(e, s, widest * T(0.5), widest,
+                 [&](const circle<T>& c) { return c.arc * per_tension - T(1) + c.arc / c.neck; });
   }
 
  private:
@@ -204,7 +211,18 @@ struct toroid {
   /// open for ρ from `least` on, and lies between the contact lines up to `largest`.
   template <real T>
   struct shape {
+    T cos1, sin1, cos2, sin2;
     T a, b, least, largest;
+  };
+  /// The circle: its radius, its centre along the axis and above it, and the radius of its gorge.
+  template <real T>
+  struct circle {
+    T arc, along, height, neck;
+  };
+  /// Sine and cosine of a filling angle.
+  template <real T>
+  struct filling {
+    T sine, cosine;
   };
 
   template <real T>
@@ -223,102 +241,101 @@ struct toroid {
   template <real T>
   [[nodiscard]] shape<T> shape_of(const edge<T>& e) const noexcept {
     using std::sqrt;
-    const T cos1 = detail::fit_number<T>(std::cos(contact_angle1));
-    const T cos2 = detail::fit_number<T>(std::cos(contact_angle2));
-    const bool flat = e.with_plane();
-    const T distance = e.radius1 + e.radius2 + e.gap;
+    const auto number = [](double x) { return detail::fit_number<T>(x); };
     shape<T> s;
-    s.a = flat ? e.gap : e.gap * (e.gap + T(2) * e.radius2) / (T(2) * distance);
-    s.b = flat ? -cos2 : (e.radius1 * cos1 - e.radius2 * cos2) / distance;
+    s.cos1 = number(std::cos(contact_angle1));
+    s.sin1 = number(std::sin(contact_angle1));
+    s.cos2 = number(std::cos(contact_angle2));
+    s.sin2 = number(std::sin(contact_angle2));
+    const T distance = e.radius1 + e.radius2 + e.gap;
+    s.a = e.with_plane() ? e.gap : e.gap * (e.gap + T(2) * e.radius2) / (T(2) * distance);
+    s.b = e.with_plane() ? -s.cos2 : (e.radius1 * s.cos1 - e.radius2 * s.cos2) / distance;
     // gorge closed: (a + bρ)² + 2R₁ (a + bρ) = 2R₁ρ cos θ₁
-    const T quadratic = s.b * s.b;
-    const T linear = T(2) * (e.radius1 * cos1 - s.b * (s.a + e.radius1));
+    const T linear = T(2) * (e.radius1 * s.cos1 - s.b * (s.a + e.radius1));
     const T constant = s.a * (s.a + T(2) * e.radius1);
-    const T root = sqrt(linear * linear - T(4) * quadratic * constant);
-    s.least = T(2) * constant / (linear + root);
+    s.least = T(2) * constant / (linear + sqrt(linear * linear - T(4) * s.b * s.b * constant));
     s.largest = T(1000) * (e.radius1 < e.radius2 ? e.radius1 : e.radius2);
-    // the contact line that the gorge reaches when the meridian there is level
-    const T sin1 = detail::fit_number<T>(std::sin(contact_angle1));
-    const T sin2 = detail::fit_number<T>(std::sin(contact_angle2));
-    const T reach = s.b < T(0) ? (s.a + e.radius1 * (T(1) - sin1)) / -s.b
-                               : (e.gap - s.a + e.radius2 * (T(1) - sin2)) / s.b;
+    // the arc whose gorge has come to a contact line: the meridian is level there
+    const T reach = s.b < T(0) ? (s.a + e.radius1 * (T(1) - s.sin1)) / -s.b
+                               : (e.gap - s.a + e.radius2 * (T(1) - s.sin2)) / s.b;
     if (reach < s.largest) {
       s.largest = reach;
     }
     return s;
   }
 
-  /// The half of the liquid beside one sphere, and the sine and cosine of its filling angle.
   template <real T>
-  struct half {
-    T sine, cosine, volume;
-  };
-  /// \param along  distance of the circle's centre from the sphere's, along the axis
-  template <real T>
-  [[nodiscard]] static half<T> beside(const T& radius, double angle, const T& along, const T& height,
-                                      const T& arc) noexcept {
-    const T c = detail::fit_number<T>(std::cos(angle));
-    const T s = detail::fit_number<T>(std::sin(angle));
-    const T scale = T(1) / (along * along + height * height);
-    half<T> h;
-    h.sine = (height * (radius + arc * c) - along * arc * s) * scale;
-    h.cosine = (along * (radius + arc * c) + height * arc * s) * scale;
-    const T rise = h.sine * h.sine / (T(1) + h.cosine);
-    const T cap = T(pi<T>) / T(3) * radius * radius * radius * rise * rise * (T(3) - rise);
-    h.volume = under(h.cosine * c - h.sine * s, h.sine * c + h.cosine * s, height, arc) - cap;
-    return h;
+  [[nodiscard]] static circle<T> circle_of(const edge<T>& e, const shape<T>& s, const T& arc) noexcept {
+    using std::sqrt;
+    const T x = s.a + s.b * arc;
+    const T square = T(2) * e.radius1 * arc * s.cos1 - x * (x + T(2) * e.radius1);  // height² − ρ²
+    const T height = sqrt(arc * arc + square);
+    return {arc, x, height, square / (height + arc)};
   }
-  /// Volume inside the meridian from the gorge to where its slope has this sine and cosine.
+
+  /// The contact line on a sphere whose centre is `along` from that of the circle.
   template <real T>
-  [[nodiscard]] static T under(const T& s, const T& c, const T& height, const T& arc) noexcept {
+  [[nodiscard]] static filling<T> filling_of(const circle<T>& c, const T& radius, const T& along, const T& cosine,
+                                             const T& sine) noexcept {
+    const T scale = T(1) / (along * along + c.height * c.height);
+    return {(c.height * (radius + c.arc * cosine) - along * c.arc * sine) * scale,
+            (along * (radius + c.arc * cosine) + c.height * c.arc * sine) * scale};
+  }
+  /// Volume inside the meridian from the gorge to where the sine and cosine of its slope are these.
+  template <real T>
+  [[nodiscard]] static T inside(const circle<T>& at, const T& s, const T& c) noexcept {
     using std::atan2;
-    return T(pi<T>) * arc *
-           (height * height * s - height * arc * (atan2(s, c) + s * c) + arc * arc * (s - s * s * s / T(3)));
+    return T(pi<T>) * at.arc * (at.height * at.height * s - at.height * at.arc * (atan2(s, c) + s * c) +
+                                at.arc * at.arc * (s - s * s * s / T(3)));
+  }
+  /// The liquid on the side of a sphere.
+  template <real T>
+  [[nodiscard]] static T beside(const circle<T>& c, const filling<T>& f, const T& radius, const T& cosine,
+                                const T& sine) noexcept {
+    const T rise = f.sine * f.sine / (T(1) + f.cosine);
+    const T cap = T(pi<T>) / T(3) * radius * radius * radius * rise * rise * (T(3) - rise);
+    return inside(c, f.cosine * cosine - f.sine * sine, f.sine * cosine + f.cosine * sine) - cap;
   }
 
   template <real T>
-  [[nodiscard]] toroid_ring<T> ring(const edge<T>& e, const shape<T>& m, const T& arc) const noexcept {
-    using std::atan2;
-    using std::sqrt;
-    const T tension = detail::fit_number<T>(surface_tension);
-    const T cos1 = detail::fit_number<T>(std::cos(contact_angle1));
-    const T x = m.a + m.b * arc;
-    const T square = T(2) * e.radius1 * arc * cos1 - x * (x + T(2) * e.radius1);  // height² − ρ²
-    const T height = sqrt(arc * arc + square);
-    toroid_ring<T> r;
-    r.arc = arc;
-    r.neck = square / (height + arc);
-    r.suction = tension * (T(1) / arc - T(1) / r.neck);
-    r.force = T(pi<T>) * tension * r.neck * (T(1) + r.neck / arc);
-    const half<T> first = beside(e.radius1, contact_angle1, x + e.radius1, height, arc);
-    r.filling1 = atan2(first.sine, first.cosine);
-    if (e.with_plane()) {
-      const T c = detail::fit_number<T>(std::cos(contact_angle2));
-      const T s = detail::fit_number<T>(std::sin(contact_angle2));
-      r.filling2 = height - arc * s;
-      r.volume = first.volume + under(c, s, height, arc);
-    } else {
-      const half<T> second = beside(e.radius2, contact_angle2, e.gap + e.radius2 - x, height, arc);
-      r.filling2 = atan2(second.sine, second.cosine);
-      r.volume = first.volume + second.volume;
-    }
-    return r;
+  [[nodiscard]] static filling<T> first_filling(const edge<T>& e, const shape<T>& s, const circle<T>& c) noexcept {
+    return filling_of(c, e.radius1, c.along + e.radius1, s.cos1, s.sin1);
+  }
+  template <real T>
+  [[nodiscard]] static filling<T> second_filling(const edge<T>& e, const shape<T>& s, const circle<T>& c) noexcept {
+    return filling_of(c, e.radius2, e.gap + e.radius2 - c.along, s.cos2, s.sin2);
+  }
+  template <real T>
+  [[nodiscard]] static T volume_of(const edge<T>& e, const shape<T>& s, const circle<T>& c) noexcept {
+    return beside(c, first_filling(e, s, c), e.radius1, s.cos1, s.sin1) +
+           (e.with_plane() ? inside(c, s.cos2, s.sin2)
+                           : beside(c, second_filling(e, s, c), e.radius2, s.cos2, s.sin2));
   }
 
   /// The ring for which `excess` vanishes, growing with the arc: of the two rings of a volume or suction the larger one.
   template <real T, class Excess>
-  [[nodiscard]] outcome<toroid_ring<T>, bridge_status> solve(const edge<T>& e, const shape<T>& m, const T& guess,
+  [[nodiscard]] outcome<toroid_ring<T>, bridge_status> solve(const edge<T>& e, const shape<T>& s, const T& guess,
                                                              const T& widest, const Excess& excess) const noexcept {
-    if (!(m.least < widest)) {
+    using std::atan2;
+    if (!(s.least < widest)) {
       return none<T>(bridge_status::ruptured);
     }
-    const auto at = [&](const T& w) { return ring(e, m, m.least + w); };
-    const auto f = [&](const T& w) { return excess(at(w)); };
-    detail::upper_root<T> root{guess > m.least ? guess - m.least : detail::fit_number<T>(1e-3) * guess, widest - m.least};
-    const bridge_status found = root.find(f);
-    return found == bridge_status::ok ? outcome<toroid_ring<T>, bridge_status>{at(root.value), found}
-                                      : none<T>(found);
+    detail::upper_root<T> root{guess > s.least ? guess - s.least : detail::fit_number<T>(1e-3) * guess,
+                               widest - s.least};
+    const bridge_status found = root.find([&](const T& w) { return excess(circle_of(e, s, s.least + w)); });
+    if (found != bridge_status::ok) {
+      return none<T>(found);
+    }
+    const circle<T> c = circle_of(e, s, s.least + root.value);
+    const filling<T> first = first_filling(e, s, c);
+    const filling<T> second = second_filling(e, s, c);
+    const T tension = detail::fit_number<T>(surface_tension);
+    return {{T(pi<T>) * tension * c.neck * (T(1) + c.neck / c.arc), volume_of(e, s, c),
+             tension * (T(1) / c.arc - T(1) / c.neck), c.neck, c.arc, atan2(first.sine, first.cosine),
+             e.with_plane() ? c.height - c.arc * s.sin2 : atan2(second.sine, second.cosine)},
+            found};
   }
 };
+static_assert(bridge_law<toroid<>> && bridge_law<toroid<>, double, given_suction<double>>);
 
 }  // namespace tetrapore::inline TETRAPORE_ABI

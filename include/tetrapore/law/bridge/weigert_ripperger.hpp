@@ -52,5 +52,6 @@ struct weigert_ripperger {
   static constexpr double least_square = 0.0301536896;    // sin² 10°
   static constexpr double largest_square = 0.4131759112;  // sin² 40°
 };
+static_assert(bridge_law<weigert_ripperger<>>);
 
 }  // namespace tetrapore::inline TETRAPORE_ABI

@@ -71,6 +71,7 @@ struct willett {
   };
   [[nodiscard]] constexpr coefficient f(double a, double b, double c) const noexcept { return {at_angle(a, b, c)}; }
 };
+static_assert(bridge_law<willett<>>);
 
 /// F = 2πRσ cos θ / (1 + 2.1 S + 10 S²), S = (D/2) / √(V/R): the fit for little liquid. Unequal radii by the radius of
 /// Derjaguin, as in the paper.
@@ -105,5 +106,6 @@ struct willett_small {
  private:
   static constexpr double largest_angle = 50 * pi<double> / 180 * (1 + 1e-12);
 };
+static_assert(bridge_law<willett_small<>>);
 
 }  // namespace tetrapore::inline TETRAPORE_ABI
