@@ -31,9 +31,7 @@ void tell(benchmark::State& state, const bench::pressure_case& c, std::span<cons
           std::size_t iterations) {
   state.SetLabel(bench::describe(static_cast<bench::contrast>(state.range(1))));
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(c.graph.node_count()));
-  state.counters["error"] = bench::error_of(c, x);
-  state.counters["failed"] = solved ? 0 : 1;
-  state.counters["pores"] = static_cast<double>(c.graph.node_count());
+  bench::tell_solution(state, c, x, solved);
   state.counters["contrast"] = c.ratio;
   if (iterations > 0) {
     state.counters["iterations"] = static_cast<double>(iterations);

@@ -26,12 +26,9 @@ const bench::pressure_case& case_of(const benchmark::State& state) {
 
 void tell(benchmark::State& state, const bench::pressure_case& c, std::span<const double> x,
           const solve_report& report) {
-  const auto pores = static_cast<double>(c.graph.node_count());
-  state.counters["error"] = bench::error_of(c, x);
-  state.counters["failed"] = report.ok() ? 0 : 1;
-  state.counters["pores"] = pores;
-  state.counters["per_pore"] =
-      benchmark::Counter(pores, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  bench::tell_solution(state, c, x, report.ok());
+  state.counters["per_pore"] = benchmark::Counter(
+      state.counters["pores"], benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
   state.counters["iterations"] = static_cast<double>(report.iterations);
 }
 

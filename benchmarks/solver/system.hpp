@@ -9,6 +9,8 @@
 #include "tetrapore/solver/hierarchy.hpp"
 #include "tetrapore/solver/pressure_system.hpp"
 
+#include <benchmark/benchmark.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -21,7 +23,7 @@
 #include <vector>
 
 /// \file
-/// Pressure systems of dense packings, with references in long double.
+/// Pressure systems of dense packings, with references in long double, and what is told of their solutions.
 
 namespace bench {
 
@@ -209,6 +211,13 @@ struct pressure_case {
     largest = std::max(largest, std::abs(c.reference[i]));
   }
   return worst / largest;
+}
+
+/// What every row tells of its last solution.
+inline void tell_solution(benchmark::State& state, const pressure_case& c, std::span<const double> x, bool solved) {
+  state.counters["error"] = error_of(c, x);
+  state.counters["failed"] = solved ? 0 : 1;
+  state.counters["pores"] = static_cast<double>(c.graph.node_count());
 }
 
 }  // namespace bench
