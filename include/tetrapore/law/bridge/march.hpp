@@ -21,6 +21,7 @@ struct waypoint {
   T direction[4];  ///< of the unknowns, of length 1
   T reach;         ///< the gap, or the volume or k
   T slope;         ///< of `reach` along the curve
+  int index;       ///< negative directions of the energy under the control
   bool sound;
 };
 
@@ -108,8 +109,12 @@ class path {
       if (size < T(20) * std::numeric_limits<T>::epsilon() ||
           (iteration > 0 && size * gain * gain < T(4) * std::numeric_limits<T>::epsilon() && size < T(1e-3)) ||
           (iteration > 2 && size < T(1e-8) && gain > T(0.3))) {
-        choose_chart<Equal>(pair_, p.u);
         settle<N>(p, &from, 0);
+        const chart was = p.u.by;
+        choose_chart<Equal>(pair_, p.u);
+        if (p.sound && p.u.by != was) {
+          settle<N>(p, nullptr, p.slope < T(0) ? -1 : 1);
+        }
         return p;
       }
       before = size;
@@ -134,11 +139,21 @@ class path {
     if (!p.sound) {
       return;
     }
+    found<T> f;
     T step[4];
-    T by_gap[4];
-    T by_value[4];
-    p.sound = linearise<Equal>(p.at, p.u, fixed_, step, by_gap, by_value);
-    const T (&along_curve)[4] = what_ == along::gap ? by_gap : by_value;
+    f.u = p.u;
+    f.at = p.at;
+    // at a fold itself the unknowns have no derivatives: the direction is then that of the border
+    const bool regular = linearise<Equal>(p.at, p.u, fixed_, step, f.by_gap, f.by_value);
+    p.index = 1;
+    if (regular) {
+      const stability_index index = index_of<Equal>(pair_, f, fixed_.by);
+      p.index = fixed_.by == bridge_control::volume ? index.at_volume : index.at_suction;
+    } else if (from == nullptr) {
+      p.sound = false;
+      return;
+    }
+    const T (&along_curve)[4] = !regular ? from->direction : what_ == along::gap ? f.by_gap : f.by_value;
     T unit = p.at.scale;
     if (what_ == along::value) {
       unit = fixed_.by == bridge_control::volume ? unit * unit * unit : T(1) / unit;
@@ -146,11 +161,10 @@ class path {
     T square(0);
     T overlap(0);
     for (int i = 0; i < 4; ++i) {
-      const T c = along_curve[i] / (i == 0 ? weight(p) : T(1));
+      const T c = along_curve[i] / (regular && i == 0 ? weight(p) : T(1));
       p.direction[i] = c;
       square += c * c;
-      // the extent changes its meaning with the chart
-      if (from != nullptr && (i != 1 || p.u.by == from->u.by)) {
+      if (from != nullptr) {
         overlap += c * from->direction[i];
       }
     }
@@ -161,7 +175,7 @@ class path {
     for (T& c : p.direction) {
       c *= factor;
     }
-    p.slope = factor * unit;
+    p.slope = regular ? factor * unit : T(0);
     if (what_ == along::gap) {
       p.reach = p.at.gap * p.at.scale;
     } else {
@@ -185,6 +199,36 @@ struct journey {
 template <std::floating_point T>
 [[nodiscard]] inline T hold(const waypoint<T>& p) noexcept {
   return p.at.turn[0] * p.at.cosine[0];
+}
+
+/// Finds where between two waypoints of an equal pair the circles begin to slide.
+template <int N, bool Equal, std::floating_point T>
+inline void note_slide(const path<Equal, T>& along_path, const waypoint<T>& from, const waypoint<T>& to,
+                       const T& distance, journey<T>& trip) noexcept {
+  if (!Equal || trip.slides || !(hold(from) > T(0)) || hold(to) > T(0)) {
+    return;
+  }
+  T low(0);
+  T high = distance;
+  T at_low = hold(from);
+  T at_high = hold(to);
+  trip.slides = true;
+  trip.first_slide = to;
+  int iterations = 0;
+  for (int i = 0; i < path<Equal, T>::locate_cap; ++i) {
+    const T tau = i % 3 == 2 ? T(0.5) * (low + high) : low + (high - low) * at_low / (at_low - at_high);
+    const waypoint<T> mid = along_path.template advance<N>(from, tau, &iterations);
+    if (!mid.sound) {
+      return;
+    }
+    trip.first_slide = mid;
+    const T now = hold(mid);
+    if (std::abs(now) < T(4) * std::numeric_limits<T>::epsilon() || high - low < std::numeric_limits<T>::epsilon()) {
+      return;
+    }
+    (now > T(0) ? low : high) = tau;
+    (now > T(0) ? at_low : at_high) = now;
+  }
 }
 
 /// Follows the curve from `start` until `reach` is the target or turns back. `sense` is that of the start.
@@ -218,36 +262,17 @@ template <int N, bool Equal, std::floating_point T>
     }
     const bool passed = sign * (next.reach - target) >= T(0);
     const bool folded = !(sign * next.slope > T(0));
-    if (!trip.slides && Equal && hold(from) > T(0) && hold(next) <= T(0) && !folded) {
-      T low(0);
-      T high = h;
-      waypoint<T> at_low = from;
-      waypoint<T> at_high = next;
-      waypoint<T> mid = next;
-      for (int i = 0; i < path<Equal, T>::locate_cap && high - low > T(4) * std::numeric_limits<T>::epsilon() * h;
-           ++i) {
-        const T share = hold(at_low) / (hold(at_low) - hold(at_high));
-        const T by_secant = low + share * (high - low);
-        const T tau = i % 3 == 2 ? T(0.5) * (low + high) : by_secant;
-        mid = along_path.template advance<N>(from, tau, &iterations);
-        if (!mid.sound) {
-          break;
-        }
-        if (std::abs(hold(mid)) < T(8) * std::numeric_limits<T>::epsilon()) {
-          break;
-        }
-        if (hold(mid) > T(0)) {
-          low = tau;
-          at_low = mid;
-        } else {
-          high = tau;
-          at_high = mid;
-        }
+    // a step that leaps to another curve arrives where the number of negative directions does not fit
+    if (!Equal && next.index != (folded ? 1 : 0)) {
+      h *= T(0.4);
+      if (h < T(1e-7)) {
+        trip.end = from;
+        return trip;
       }
-      if (mid.sound) {
-        trip.first_slide = mid;
-        trip.slides = true;
-      }
+      continue;
+    }
+    if (!folded) {
+      note_slide<N>(along_path, from, next, h, trip);
     }
     if (!passed && !folded) {
       from = next;
@@ -282,6 +307,7 @@ template <int N, bool Equal, std::floating_point T>
         }
       }
       const waypoint<T>& top = sign * (at_high.reach - at_low.reach) > T(0) ? at_high : at_low;
+      note_slide<N>(along_path, from, at_low, low, trip);
       if (sign * (top.reach - target) < T(0)) {
         trip.end = top;
         trip.how = arrival::at_fold;
@@ -304,8 +330,12 @@ template <int N, bool Equal, std::floating_point T>
       if (!mid.sound) {
         return trip;
       }
-      if (std::abs(mid.reach - target) < T(1e-3) * std::abs(sign * mid.slope) * T(0.1) * h ||
-          std::abs(mid.reach - target) <= T(4) * std::numeric_limits<T>::epsilon() * std::abs(target)) {
+      // near enough for Newton's method, which must not pass the fold at slope² / (2 bend) from here
+      const T miss = std::abs(mid.reach - target);
+      const T bend = std::abs(at_low.slope - at_high.slope) / (high - low);
+      const T slope = std::abs(mid.slope);
+      if ((sign * mid.slope > T(0) && miss < T(1e-4) * slope * h && miss * bend < T(0.01) * slope * slope) ||
+          miss <= T(4) * std::numeric_limits<T>::epsilon() * std::abs(target)) {
         break;
       }
       if (sign * (mid.reach - target) < T(0)) {

@@ -92,6 +92,25 @@ inline void squared_sines(const T& z, const std::array<T, N>& square, std::array
   }
 }
 
+/// −sin² at the nodes of a rule that is Gauss's in u, from 0 to the angle m = s sinh u, and its weights.
+template <int N, std::floating_point T>
+inline void stretched_sines(const T& m, const T& s, std::array<T, static_cast<std::size_t>(N)>& q,
+                            std::array<T, static_cast<std::size_t>(N)>& weight) noexcept {
+  using std::asinh;
+  using std::sqrt;
+  const auto& rule = gauss<T, N>;
+  const T u = asinh(m / s);
+  squared_sines(u * u, rule.square, q);
+  const T front = s * u / m;
+  const T square = s * s / (m * m);
+  std::array<T, static_cast<std::size_t>(N)> shares;
+  for (std::size_t j = 0; j < static_cast<std::size_t>(N); ++j) {
+    weight[j] = rule.weight[j] * front * sqrt(T(1) + q[j]);
+    shares[j] = square * q[j];
+  }
+  squared_sines(-m * m, shares, q);
+}
+
 /// How the unknowns are counted. Unknowns: k, then `extent`, then w of each contact circle.
 enum class chart : unsigned char {
   from_extremum,  ///< extent is the radius of the neck, real or virtual, from which both sides are measured
@@ -201,19 +220,24 @@ template <int N, std::floating_point T>
     x_m = (T(1) - a * ends) / (root_p * cosine);
     v_m = pi<T> * (T(1) + ends) * x_m;
   } else {
-    // the angle m = ks
+    // the angle m = ks, stretched as m = s sinh u where the branch points ± i s of r would slow the rule down
     const T m = atan(a * t);
     m_t = a / square;
     m_a = t / square;
     const T per_a = T(1) / a;
     const T ratio = -p * per_a * per_a;
     const T rate = T(-2) * (T(1) + a) / (a * p);
-    squared_sines(-m * m, rule.square, q);
+    std::array<T, static_cast<std::size_t>(N)> weight = rule.weight;
+    if (a < T(6) && std::abs(a * sine) > T(0.7)) {
+      stretched_sines<N>(m, asinh(std::abs(a) / root_p), q, weight);
+    } else {
+      squared_sines(-m * m, rule.square, q);
+    }
     for (std::size_t j = 0; j < static_cast<std::size_t>(N); ++j) {
       const T e = ratio * q[j];  // (r/r0)² − 1
       const T e_a = rate * e;
       const T size = T(1) + e;
-      const T f = rule.weight[j] / sqrt(size);
+      const T f = weight[j] / sqrt(size);
       const T n = T(1) - a * e;
       const T n_a = -e - a * e_a;
       const T half = T(0.5) * n * e_a;
@@ -489,9 +513,10 @@ template <int N, std::floating_point T>
       area += sum * m / root_p;
     } else {
       const T m = atan(a * t);
-      squared_sines(-m * m, rule.square, q);
+      std::array<T, static_cast<std::size_t>(N)> weight;
+      stretched_sines<N>(m, asinh(std::abs(a) / root_p), q, weight);
       for (std::size_t j = 0; j < q.size(); ++j) {
-        sum += rule.weight[j] * sqrt(T(1) - p / (a * a) * q[j]);
+        sum += weight[j] * sqrt(T(1) - p / (a * a) * q[j]);
       }
       area += sum * m / a;
     }

@@ -99,22 +99,26 @@ inline void choose_chart(const surface_pair<T>& pair, profile<T>& u) noexcept {
   T re[2];
   T im[2];
   T p[2];
+  T lambda[2];
   for (int i = 0; i < 2; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    const contact_circle<T> at(pair.side[k], u.w[k]);
+    const auto side = static_cast<std::size_t>(i);
+    const contact_circle<T> at(pair.side[side], u.w[side]);
     re[i] = T(1) + T(2) * u.k * at.radius * at.sine;
     im[i] = T(2) * u.k * at.radius * at.cosine;
     p[i] = sqrt(re[i] * re[i] + im[i] * im[i]);
+    lambda[i] = at.radius * (at.sine + u.k * at.radius);
   }
   const T least = std::min(p[0], p[1]);
-  const bool neck = !(u.k < T(0)) || (re[0] + re[1] > T(0) && least > T(0.1) && least < T(1) &&
+  const bool bulge = im[0] > T(0) && im[1] > T(0) && u.k < T(0);  // both circles on the way to it
+  const bool neck = !(u.k < T(0)) || (!bulge && re[0] + re[1] > T(0) && least > T(0.1) && lambda[0] > T(0) && lambda[1] > T(0) &&
                                       re[0] > T(-0.9) * p[0] && re[1] > T(-0.9) * p[1]);
   if (neck && u.by == chart::from_contact) {
     u.by = chart::from_extremum;
-    u.extent = (T(0.5) * (p[0] + p[1]) - T(1)) / (T(2) * u.k);
+    u.extent = (lambda[0] + lambda[1]) / (T(1) + T(0.5) * (p[0] + p[1]));
   } else if (!neck && u.by == chart::from_extremum) {
     u.by = chart::from_contact;
-    const T angle = atan2(im[0], re[0]) + (Equal ? T(0) : atan2(im[1], re[1]));
+    const T turned = bulge ? pi<T> : T(0);
+    const T angle = atan2(im[0], re[0]) - turned + (Equal ? T(0) : atan2(im[1], re[1]) - turned);
     u.extent = T(0.5) * angle / u.k;
   }
 }
