@@ -39,6 +39,7 @@ flow_of_the_step flow_through(const network& net) {
   options.conditions.at(face::y_min) = held_pressure(1.0);
   options.conditions.at(face::y_max) = held_pressure(0.0);
   options.refused = refused_throats::closed;
+  options.hydraulics = keep_hydraulics::yes;
   return {net, hydraulic_radius{.viscosity = 1.0}, multigrid_solver<>{}, options};
 }
 
@@ -69,8 +70,9 @@ void laws(benchmark::State& state) {
   const network net = triangulated(packing_of(state));
   for (auto _ : state) {
     const flow_nodes nodes(net);
-    benchmark::DoNotOptimize(
-        conductances(net, nodes, hydraulic_radius{.viscosity = 1.0}, refused_throats::closed).values.data());
+    benchmark::DoNotOptimize(conductances(net, nodes, hydraulic_radius{.viscosity = 1.0}, refused_throats::closed,
+                                          serial{}, keep_hydraulics::yes)
+                                 .values.data());
   }
   tell(state, net);
 }

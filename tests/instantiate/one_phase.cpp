@@ -17,7 +17,7 @@ template double volume_rate(const moving_body<double>&) noexcept;
 template long double volume_rate(const moving_body<long double>&) noexcept;
 
 template throat_conductances conductances(const network&, const flow_nodes&, const darcy&, refused_throats,
-                                          const serial&);
+                                          const serial&, keep_hydraulics);
 template volume_rates rates_of_volume(const network&, const motion&, const serial&);
 
 using direct_flow = saturated_flow<hydraulic_radius, ldlt_solver<>>;
@@ -26,7 +26,8 @@ template class saturated_flow<hydraulic_radius, ldlt_solver<>>;
 template class saturated_flow<darcy, multigrid_solver<>>;
 
 template fluid_forces forces_of_pressure(const network&, const flow_nodes&, const pressure_field&, const vec3<double>&,
-                                         const share_by_wetted_area&, const force_options&);
+                                         const share_by_wetted_area&, const force_options&,
+                                         std::span<const throat_hydraulics<double>>);
 template fluid_forces forces_on_grains(const direct_flow&);
 template fluid_forces forces_on_grains(const iterative_flow&);
 template fluid_forces forces_on_grains(const iterative_flow&, const share_by_wetted_area&, const force_options&);

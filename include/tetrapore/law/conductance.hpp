@@ -3,6 +3,7 @@
 
 /// \file
 /// All conductance laws.
+/// \par Source  each header names its own; what they share: Chareyre et al. 2017, §2.2
 
 #include "tetrapore/law/conductance/calibrated.hpp"
 #include "tetrapore/law/conductance/concept.hpp"

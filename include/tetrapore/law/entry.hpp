@@ -3,6 +3,7 @@
 
 /// \file
 /// All entry laws.
+/// \par Source  each header names its own; what they share: Chareyre et al. 2017, §2.3
 
 #include "tetrapore/law/entry/concept.hpp"
 #include "tetrapore/law/entry/inscribed_circle.hpp"

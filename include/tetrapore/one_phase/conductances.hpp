@@ -23,6 +23,9 @@ enum class refused_throats : unsigned char {
   closed  ///< nothing passes it; it is counted
 };
 
+/// Whether the hydraulics of the throats outlast the law, for forces_of_pressure: 104 bytes a throat, and less time.
+enum class keep_hydraulics : bool { no, yes };
+
 /// How often a law gave each reason, and the first throat that got it.
 class conductance_counts {
  public:
@@ -83,6 +86,8 @@ struct throat_conductances {
   /// Per throat [m³/(Pa s)]; 0 on a boundary and inside a node, where no law is asked, and where a throat is closed.
   std::vector<double> values;
   conductance_counts counts;
+  /// Per throat, the nodes where they stand; nothing of a boundary. Empty unless they were to be kept.
+  std::vector<throat_hydraulics<double>> hydraulics;
 };
 
 /// Whether a number can be a conductance: finite and at least 0.
@@ -95,10 +100,14 @@ struct throat_conductances {
 ///                       In any case one that the law gives a value which is no conductance
 template <conductance_law Law, executor E = serial>
 [[nodiscard]] throat_conductances conductances(const network& net, const flow_nodes& nodes, const Law& law,
-                                               refused_throats refused = refused_throats::error, const E& cores = {}) {
+                                               refused_throats refused = refused_throats::error, const E& cores = {},
+                                               keep_hydraulics keep = keep_hydraulics::no) {
   TETRAPORE_EXPECTS(nodes.pore_count() == net.pore_count(), "the nodes belong to the network");
   throat_conductances out;
   out.values.assign(net.throat_count(), 0.0);
+  if (keep == keep_hydraulics::yes) {
+    out.hydraulics.resize(net.throat_count());
+  }
   throat_id impossible;
   std::mutex merge;
   cores.blocks(net.throat_count(), [&](std::size_t begin, std::size_t end) {
@@ -106,10 +115,28 @@ template <conductance_law Law, executor E = serial>
     throat_id mine_impossible;
     for (std::size_t i = begin; i < end; ++i) {
       const throat_id t(i);
-      if (net.is_boundary(t) || nodes.inside(net, t)) {
+      const bool asked = !nodes.inside(net, t);
+      if (net.is_boundary(t) || (!asked && out.hydraulics.empty())) {
         continue;
       }
-      const auto answer = law.conductance(nodes.throat_between(net, t));
+      const throat<double> seen = nodes.throat_between(net, t);
+      hydraulics_outcome<double> h{};
+      if (hydraulic_law<Law> || !out.hydraulics.empty()) {
+        h = hydraulics_of(seen);
+      }
+      if (!out.hydraulics.empty()) {
+        out.hydraulics[i] = h.value;
+      }
+      if (!asked) {
+        continue;
+      }
+      const auto answer = [&] {
+        if constexpr (hydraulic_law<Law>) {
+          return law.conductance(seen, h);
+        } else {
+          return law.conductance(seen);
+        }
+      }();
       mine.add(answer.reason, t);
       out.values[i] = answer.ok() ? answer.value : 0.0;
       if (!is_conductance(out.values[i]) && !mine_impossible.valid()) {

@@ -182,7 +182,7 @@ class coupled_flow {
       : net_(std::move(net)),
         options_(options),
         sharing_(std::move(sharing)),
-        flow_(net_, std::move(law), std::move(solver), std::move(flow)) {
+        flow_(net_, std::move(law), std::move(solver), kept(std::move(flow))) {
     if (options_.scheme == pressure_scheme::explicit_step && !flow_.system().compressible()) {
       throw parameter_error("pressure scheme", "an explicit step of an incompressible fluid", "an implicit step");
     }
@@ -413,6 +413,11 @@ class coupled_flow {
   [[nodiscard]] std::size_t steps_since_rebuild() const noexcept { return steps_since_rebuild_; }
 
  private:
+  [[nodiscard]] static flow_options kept(flow_options flow) {
+    flow.hydraulics = keep_hydraulics::yes;
+    return flow;
+  }
+
   /// The grains as the network keeps them; along periodic axes at the image nearest to where each was.
   template <class Grains>
   [[nodiscard]] std::vector<sphere<double>> followed(const Grains& grains, const box& bounds) {
@@ -508,7 +513,7 @@ class coupled_flow {
       if (!(area > 0)) {
         continue;
       }
-      const facet_load load = sharing_(seen);
+      const facet_load load = detail::load_of(sharing_, seen, t, flow_.conductances().hydraulics);
       for (std::size_t k = 0; k < 3; ++k) {
         out.shares[i][k] = (load.pressure[k] + load.viscous[k]) / area;
       }
@@ -537,14 +542,10 @@ class coupled_flow {
 
   /// What drives the flow out of each pore: the pressure without the weight of the fluid.
   void drive() {
-    const flow_nodes& nodes = flow_.system().nodes();
-    const vec3<double> slope = flow_.system().fluid().hydrostatic_gradient();
     driving_ = pressure_field(net_);
-    const bool boxed = net_.region().bounds.size() != vec3<double>{};
-    const vec3<double> origin = boxed || net_.grain_count() == 0 ? net_.region().bounds.lo : net_.grains()[0].centre;
     for (std::size_t i = 0; i < driving_.size(); ++i) {
       const pore_id p(i);
-      driving_[p] = flow_.pressure()[p] - dot(slope, nodes.position(net_, p) - origin);
+      driving_[p] = flow_.pressure()[p] - flow_.system().pressure_at_rest(net_, p);
     }
   }
   [[nodiscard]] double drop(throat_id t) const noexcept {

@@ -41,6 +41,7 @@ struct flow_options {
   pore_fluid fluid{};
   refused_throats refused = refused_throats::error;
   node_rule nodes{};
+  keep_hydraulics hydraulics = keep_hydraulics::no;  ///< yes where forces follow each solution
 };
 
 /// Σ_j K_ij (p_i − p_j) + V_void/(K_f Δt) (p_i − p_i,old) = −dV_i/dt on the pores of a network.
@@ -63,7 +64,7 @@ class saturated_flow {
         options_(std::move(options)),
         cores_(std::move(cores)) {
     flow_nodes nodes(net, options_.nodes);
-    conductances_ = tetrapore::conductances(net, nodes, law_, options_.refused, cores_);
+    conductances_ = conductances_between(nodes);
     system_ = flow_system(net, std::move(nodes), options_.conditions, options_.fluid);
     pressure_ = pressure_field(net);
     driving_ = pressure_field(net);
@@ -85,7 +86,7 @@ class saturated_flow {
   /// The same, with other conditions.
   void update(flow_conditions conditions) {
     flow_nodes nodes(*net_, options_.nodes);
-    throat_conductances values = tetrapore::conductances(*net_, nodes, law_, options_.refused, cores_);
+    throat_conductances values = conductances_between(nodes);
     if (!system_.follow(*net_, std::move(nodes), std::move(conditions))) {
       solver_.analyze(system_.graph());
     }
@@ -122,7 +123,8 @@ class saturated_flow {
                               "a finite number of at least 0");
       }
     }
-    conductances_ = {std::move(values), {}};
+    conductances_.values = std::move(values);
+    conductances_.counts = {};
     x_.clear();
     factorized_ = false;
   }
@@ -198,6 +200,9 @@ class saturated_flow {
   }
 
  private:
+  [[nodiscard]] throat_conductances conductances_between(const flow_nodes& nodes) const {
+    return tetrapore::conductances(*net_, nodes, law_, options_.refused, cores_, options_.hydraulics);
+  }
   [[nodiscard]] bool joins_nodes(throat_id t) const noexcept {
     return !net_->is_boundary(t) && !system_.nodes().inside(*net_, t);
   }

@@ -209,6 +209,11 @@ class flow_system {
     return x[nodes_[p]] + (level_ + dot(conditions_.mean_gradient, place(net, p)));
   }
 
+  /// The pressure of the fluid at rest in a pore [Pa], nothing at the origin of places.
+  [[nodiscard]] double pressure_at_rest(const network& net, pore_id p) const noexcept {
+    return dot(fluid_.hydrostatic_gradient(), place(net, p));
+  }
+
   /// Fall of the driving pressure from pore 0 to pore 1 of a throat [Pa].
   [[nodiscard]] double drop(const network& net, std::span<const double> x, throat_id t) const noexcept {
     const auto& [a, b] = net.pores(t);

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <concepts>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 /// \file
@@ -22,6 +23,7 @@ namespace tetrapore::inline TETRAPORE_ABI {
 struct facet_load {
   std::array<double, 3> pressure{};  ///< [m²]
   std::array<double, 3> viscous{};   ///< [m²]
+  bool replaced = false;             ///< the rule of the sharing failed here, and its second rule was taken
 };
 
 /// Shares the load of a facet among its vertices: any function of a throat that gives a facet_load.
@@ -30,11 +32,18 @@ concept load_sharing = requires(const S s, const throat<double> t) {
   { s(t) } -> std::same_as<facet_load>;
 };
 
+/// A sharing that asks a throat's hydraulics, and so can be given them.
+template <class S>
+concept hydraulic_sharing =
+    load_sharing<S> && requires(const S s, const throat<double> t, const throat_hydraulics<double> h) {
+      { s(t, h) } -> std::same_as<facet_load>;
+    };
+
 /// Pressure acts on the disc of each grain in the facet (segments that stick out and lenses taken off, so that discs
 /// and fluid area make up the facet); what the fluid area carries goes to the grains and walls by the surface that they
 /// wet in the throat domain.
 /// \par Domain  any throat. Where signed wetted areas have no common sign, as in a mesh that is no longer regular,
-///              their magnitudes count; where they vanish, the discs
+///              their magnitudes count, and where they vanish, the discs: `replaced` says so
 /// \par Accuracy  the parts sum to the area to 1e-14 of the largest square of a radius or edge; from the conductances
 ///                of another code, its forces on the grains to 5e-11 (tests/truth/system/peer_flow_test.cpp)
 /// \par Source  Chareyre et al. 2012, Transp. Porous Media 92, 473; Chareyre et al. 2017, §2.2
@@ -42,7 +51,9 @@ struct share_by_wetted_area {
   wall_condition wall = wall_condition::no_slip;
 
   [[nodiscard]] facet_load operator()(const throat<double>& t) const noexcept {
-    const throat_hydraulics<double> h = hydraulics_of(t).value;
+    return (*this)(t, hydraulics_of(t).value);
+  }
+  [[nodiscard]] facet_load operator()(const throat<double>&, const throat_hydraulics<double>& h) const noexcept {
     facet_load load;
     load.pressure = h.disc_area;
     std::array<double, 3> weight{};
@@ -53,7 +64,9 @@ struct share_by_wetted_area {
       return weight[0] + weight[1] + weight[2];
     };
     double sum = sum_up([&](std::size_t k) { return h.sheared_area(k, wall); });
+    load.replaced = sum != std::abs(h.sheared_area(wall));
     if (!(sum > 0)) {
+      load.replaced = true;
       sum = sum_up([&](std::size_t k) { return h.disc_area[k]; });
     }
     for (std::size_t k = 0; k < 3 && sum > 0; ++k) {
@@ -62,7 +75,7 @@ struct share_by_wetted_area {
     return load;
   }
 };
-static_assert(load_sharing<share_by_wetted_area>);
+static_assert(hydraulic_sharing<share_by_wetted_area>);
 
 /// Forces and torques of the fluid.
 struct fluid_forces {
@@ -71,6 +84,7 @@ struct fluid_forces {
   std::vector<vec3<double>> torques;     ///< per grain, about its centre [N m]
   std::array<vec3<double>, 6> walls{};   ///< shear on each wall [N]; the pressure on it: pressure_on_walls
   std::array<vec3<double>, 3> stress{};  ///< mean stress of the grains by the fluid, tension positive [Pa]
+  std::size_t replaced = 0;              ///< facets where the sharing took its second rule: see facet_load
 
   [[nodiscard]] vec3<double> on(grain_id g) const noexcept { return pressure[g.index()] + viscous[g.index()]; }
   /// Sum over grains and walls [N].
@@ -88,20 +102,24 @@ struct fluid_forces {
 
 namespace detail {
 
-/// Unit vectors along the edges of a facet, edge k from vertex k to the next; a wall is a direction.
-[[nodiscard]] inline std::array<vec3<double>, 3> edges_of_facet(const throat<double>& t) noexcept {
-  std::array<vec3<double>, 3> out{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::size_t next = (k + 1) % 3;
-    if (k < t.grain_count && next < t.grain_count) {
-      const vec3<double> d = t.grains[next].centre - t.grains[k].centre;
-      const double length = norm(d);
-      out[k] = length > 0 ? d / length : vec3<double>{};
-    } else if (k < t.grain_count) {
-      out[k] = -t.walls[next - t.grain_count].normal;
-    } else if (next < t.grain_count) {
-      out[k] = t.walls[k - t.grain_count].normal;
+/// The load of throat t, from its hydraulics where they were kept.
+template <load_sharing Sharing>
+[[nodiscard]] facet_load load_of(const Sharing& sharing, const throat<double>& seen, throat_id t,
+                                 std::span<const throat_hydraulics<double>> kept) {
+  if constexpr (hydraulic_sharing<Sharing>) {
+    if (!kept.empty()) {
+      return sharing(seen, kept[t.index()]);
     }
+  }
+  return sharing(seen);
+}
+
+/// Unit vectors along the edges of a facet; nothing along an edge without length.
+[[nodiscard]] inline std::array<vec3<double>, 3> directions_of_facet(const throat<double>& t) noexcept {
+  std::array<vec3<double>, 3> out = edges_of_facet(t);
+  for (vec3<double>& d : out) {
+    const double length = norm(d);
+    d = length > 0 ? d / length : vec3<double>{};
   }
   return out;
 }
@@ -150,11 +168,14 @@ struct force_options {
 ///                the quadrature (tests/property/system/fluid_forces_test.cpp)
 /// \param pressure       the one that drives the flow: saturated_flow::driving_pressure; see `buoyancy` for the rest
 /// \param mean_gradient  of a periodic box [Pa/m]
+/// \param kept           hydraulics of the throats, from throat_conductances, or none
 template <load_sharing Sharing = share_by_wetted_area>
 [[nodiscard]] fluid_forces forces_of_pressure(const network& net, const flow_nodes& nodes,
                                               const pressure_field& pressure, const vec3<double>& mean_gradient = {},
-                                              const Sharing& sharing = {}, const force_options& how = {}) {
+                                              const Sharing& sharing = {}, const force_options& how = {},
+                                              std::span<const throat_hydraulics<double>> kept = {}) {
   TETRAPORE_EXPECTS(pressure.belongs_to(net), "the pressure belongs to the network");
+  TETRAPORE_EXPECTS(kept.empty() || kept.size() == net.throat_count(), "the hydraulics belong to the network");
   fluid_forces out;
   out.pressure.assign(net.grain_count(), {});
   out.viscous.assign(net.grain_count(), {});
@@ -174,10 +195,11 @@ template <load_sharing Sharing = share_by_wetted_area>
     if (!(area > 0)) {
       continue;
     }
-    const facet_load load = sharing(seen);
+    const facet_load load = detail::load_of(sharing, seen, t, kept);
+    out.replaced += load.replaced ? 1U : 0U;
     const vec3<double> push = seen.area_vector * (drop / area);
     const auto slots = facet_slots(net, a, net.slot(t, 0));
-    const auto edges = detail::edges_of_facet(seen);
+    const auto edges = detail::directions_of_facet(seen);
     for (std::size_t k = 0; k < 3; ++k) {
       const vertex v = net.vertices(a)[slots[k]];
       if (v.is_wall()) {
@@ -262,7 +284,7 @@ template <class Law, class Solver, class Cores, load_sharing Sharing>
 [[nodiscard]] fluid_forces forces_on_grains(const saturated_flow<Law, Solver, Cores>& flow, const Sharing& sharing,
                                             const force_options& how = {}) {
   return forces_of_pressure(flow.net(), flow.system().nodes(), flow.driving_pressure(),
-                            flow.system().conditions().mean_gradient, sharing, how);
+                            flow.system().conditions().mean_gradient, sharing, how, flow.conductances().hydraulics);
 }
 /// Forces of the last solution, shared as the law treats the walls: see wall_condition_of.
 template <class Law, class Solver, class Cores>

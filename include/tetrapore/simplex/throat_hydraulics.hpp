@@ -47,6 +47,28 @@ struct throat_hydraulics {
   }
 };
 
+namespace detail {
+
+/// The edges of a facet, edge k from vertex k to the next, a wall being a direction: from grain k the others lie along
+/// edge k and against edge k + 2. Nothing between two walls.
+template <real T>
+[[nodiscard]] constexpr std::array<vec3<T>, 3> edges_of_facet(const throat<T>& t) noexcept {
+  std::array<vec3<T>, 3> out{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t next = (k + 1) % 3;
+    if (k < t.grain_count && next < t.grain_count) {
+      out[k] = t.grains[next].centre - t.grains[k].centre;
+    } else if (k < t.grain_count) {
+      out[k] = -t.walls[next - t.grain_count].normal;
+    } else if (next < t.grain_count) {
+      out[k] = t.walls[k - t.grain_count].normal;
+    }
+  }
+  return out;
+}
+
+}  // namespace detail
+
 /// Volumes and surfaces of a throat domain. From a grain a wall is a direction, as in a cell: the solid angle at grain
 /// k is that of the spherical quadrangle (a, node 0, b, node 1), a and b being the other two vertices. The angles are
 /// signed, with the sign of the whole domain: where the axis between the nodes misses the facet, one of the two
@@ -74,9 +96,8 @@ template <real T>
   h.fluid_area = areas.fluid();
   h.disc_area = areas.disc;
   h.domain_volume = detail::magnitude(flux) / T(3);
-  const auto towards = [&](std::size_t grain, std::size_t k) noexcept -> vec3<T> {
-    return k < t.grain_count ? t.grains[k].centre - t.grains[grain].centre : -t.walls[k - t.grain_count].normal;
-  };
+  const std::array<vec3<T>, 3> edges = detail::edges_of_facet(t);
+  const std::array<T, 3> lengths{norm(edges[0]), norm(edges[1]), norm(edges[2])};
   T check = h.length + h.fluid_area + h.domain_volume;
   for (std::size_t k = 0; k < 3; ++k) {
     if (k < t.grain_count) {
@@ -87,11 +108,11 @@ template <real T>
       const T to_length = norm(to);
       // Half of each triangle's angle as a complex number, their difference by a product. With the axis itself in the
       // volume, a cone between two close nodes keeps its digits.
-      const auto cone = [&](const vec3<T>& a) noexcept -> vec2<T> {
-        return {detail::half_angle_cosine(a, from, to, norm(a), from_length, to_length), triple(a, from, axis)};
+      const auto cone = [&](const vec3<T>& a, const T& along) noexcept -> vec2<T> {
+        return {detail::half_angle_cosine(a, from, to, along, from_length, to_length), triple(a, from, axis)};
       };
-      const vec2<T> first = cone(towards(k, (k + 1) % 3));
-      const vec2<T> second = cone(towards(k, (k + 2) % 3));
+      const vec2<T> first = cone(edges[k], lengths[k]);
+      const vec2<T> second = cone(-edges[(k + 2) % 3], lengths[(k + 2) % 3]);
       const T angle = h.length > T(0) ? T(2) * atan2(cross(second, first), dot(first, second)) : T(0);
       h.wetted_area[k] = g.radius * g.radius * (reversed ? -angle : angle);
       h.solid_volume = h.solid_volume + g.radius * h.wetted_area[k] / T(3);

@@ -115,6 +115,7 @@ TEST_CASE("flow down through an equilateral facet: each grain is pushed down and
       check_close(f.torques[g], {});
     }
     check_close(f.total(), {0, 0, -drop * root3});
+    CHECK(f.replaced == 0);
     // Three equal forces at three arms that cancel: only the pressure on the sectors is left. Tension is positive. The
     // solid angle of a regular tetrahedron is acos(23/27); each pore holds four such sectors.
     const double solid = 4 * r * r * r * std::acos(23.0 / 27.0) / 3;
@@ -124,6 +125,28 @@ TEST_CASE("flow down through an equilateral facet: each grain is pushed down and
       check_close(f.stress[i], expected);
     }
   }
+}
+
+TEST_CASE(
+    "where wetted areas have no common sign their magnitudes share, where they vanish the discs, and it is said") {
+  throat_hydraulics<double> h;
+  h.grain_count = 3;
+  h.fluid_area = 8;
+  h.disc_area = {1, 2, 1};
+  const auto shares = [&](std::array<double, 3> wetted) {
+    h.wetted_area = wetted;
+    return share_by_wetted_area{}(throat<double>{}, h);
+  };
+  const facet_load down = shares({-1, -1, -2});  // one sign
+  CHECK_FALSE(down.replaced);
+  CHECK(down.viscous == std::array<double, 3>{2, 2, 4});
+  const facet_load mixed = shares({1, -1, 2});
+  CHECK(mixed.replaced);
+  CHECK(mixed.viscous == std::array<double, 3>{2, 2, 4});
+  const facet_load none = shares({0, 0, 0});
+  CHECK(none.replaced);
+  CHECK(none.viscous == std::array<double, 3>{2, 4, 2});
+  CHECK(none.pressure == h.disc_area);
 }
 
 TEST_CASE("a right-angled facet with unequal grains: arm × force is the torque, Σ arm ⊗ force / volume the stress") {

@@ -94,16 +94,13 @@ bool load(const std::filesystem::path& path, progress& p, support::dem& d) {
 
 }  // namespace
 
-// The 3 % hold for the settlement at all times and for the root mean square over the profiles. A single layer of a
-// single column may miss by more. Terzaghi's column has one permeability and one stiffness all along; in a random
-// packing a layer of some 150 grains (a tenth of the column, 3.5 diameters high) has its own, and the
-// pressure in it follows them: it is the drop across the layers above, each with its own resistance. Two seeds show it:
-// the worst of the fifty layers misses by 1.7 % with one and by 3.6 % with the other (root mean squares 0.6 and 1.0 %),
-// while the settlement, which sums over the column, misses by 1.9 % with both. So the bound on one layer is 5 %.
-TEST_CASE("a tall column consolidates within 3 % of Terzaghi, in settlement and in pressure (root mean square)") {
+// Terzaghi's column has one permeability and one stiffness all along; in a random packing a layer has its own, and the
+// pressure in it follows them. So the column must be wide: with 150 grains in a layer (a tenth of the column) the worst
+// of fifty layers missed by 1.7 and 3.6 % in two columns, and that falls with the root of the grains in a layer.
+TEST_CASE("a tall column consolidates within 3 % of Terzaghi, in settlement and in the pressure of each layer") {
   const std::filesystem::path folder = TETRAPORE_CAMPAIGN_DIR;
   std::filesystem::create_directories(folder);
-  constexpr std::size_t grains = 1500;
+  constexpr std::size_t grains = 4000;
   for (const std::uint64_t seed : {1U, 2U}) {
     const auto path = folder / ("consolidation_" + std::to_string(seed) + ".json");
     if (std::filesystem::exists(path)) {
@@ -114,14 +111,13 @@ TEST_CASE("a tall column consolidates within 3 % of Terzaghi, in settlement and 
     support::oedometer_options o;
     o.grains = grains;
     o.seed = seed;
-    o.slenderness = 8;
+    o.slenderness = 4.9;  // 35 diameters high
     o.end = 1.5;
     o.rebuild_every = 2000;
     support::dem column = support::settled_column(support::loose_column(o), o);
     const support::consolidation c = support::consolidate(column, o);
     CHECK(c.settlement_error < 0.03);
-    CHECK(c.pressure_error_rms < 0.03);  // of ten layers at five times
-    CHECK(c.pressure_error < 0.05);      // of the worst of them: the packing is not the same everywhere
+    CHECK(c.pressure_error < 0.03);  // of ten layers at five times
     CHECK(c.mass_defect < 1e-10);
     CHECK(c.volume_defect < 1e-10);
     CHECK(c.unsolved == 0);

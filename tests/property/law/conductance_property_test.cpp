@@ -125,6 +125,11 @@ conformance examine(const Make& law_at, std::size_t count, std::uint64_t seed) {
         c.motion = std::max(c.motion, e / allowed);
       }
     }
+    if constexpr (hydraulic_law<decltype(law)>) {
+      const auto given = law.conductance(t, hydraulics_of(t));
+      CHECK(given.reason == answer.reason);
+      CHECK((given.value == answer.value || (std::isnan(given.value) && std::isnan(answer.value))));
+    }
     const auto thicker = law_at(2.5e-3, 1.0).conductance(t);
     CHECK(thicker.reason == answer.reason);
     switch (answer.kind()) {

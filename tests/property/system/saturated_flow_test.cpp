@@ -122,6 +122,41 @@ TEST_CASE("the forces on grains and walls sum to what the boundary pushes, whate
   }
 }
 
+TEST_CASE("hydraulics that are kept from the law to the forces change no bit of either") {
+  const auto same = [](const scene& s, const auto& law, const flow_conditions& c) {
+    CAPTURE(s.name);
+    flow_options how{.conditions = c, .refused = refused_throats::closed};
+    saturated_flow anew(s.net, law, ldlt_solver<>{}, how);
+    how.hydraulics = keep_hydraulics::yes;
+    saturated_flow kept(s.net, law, ldlt_solver<>{}, how);
+    CHECK(anew.conductances().hydraulics.empty());
+    CHECK(kept.conductances().hydraulics.size() == s.net.throat_count());
+    CHECK(kept.conductances().values == anew.conductances().values);
+    for (int round = 0; round < 2; ++round) {  // conductances of the caller's own leave the geometry
+      CHECK(anew.solve().ok());
+      CHECK(kept.solve().ok());
+      const fluid_forces a = forces_on_grains(anew);
+      const fluid_forces b = forces_on_grains(kept);
+      CHECK(a.pressure == b.pressure);
+      CHECK(a.viscous == b.viscous);
+      CHECK(a.torques == b.torques);
+      CHECK(a.walls == b.walls);
+      const std::vector<double> ones(s.net.throat_count(), 1.0);
+      anew.set_conductances(ones);
+      kept.set_conductances(ones);
+    }
+  };
+  for (const scene& s : walled_scenes()) {
+    same(s, water(), between(face::y_min, 3.0, face::y_max, 1.0));
+    same(s, arbitrary_law{}, between(face::y_min, 3.0, face::y_max, 1.0));
+  }
+  flow_conditions tilted;
+  tilted.mean_gradient = {-0.5, 2.0, 1.25};
+  for (const scene& s : periodic_scenes()) {
+    same(s, water(), tilted);
+  }
+}
+
 TEST_CASE("the forces on the grains of a periodic box sum to −V ∇p, whatever the conductances") {
   const vec3<double> gradient{-0.5, 2.0, 1.25};
   for (const scene& s : periodic_scenes()) {

@@ -132,12 +132,12 @@ struct table_report {
 ///
 ///   y = √(s (D_r − D) / ((s + D) D_r)), 1 at contact and 0 at rupture, where the force is smooth in y,
 ///
-/// in each a polynomial of degree 3 in the volume and 5 in y, continuous from cell to cell. The bits of the volume are
+/// in each a polynomial of degree 4 in the volume and 5 in y, continuous from cell to cell. The bits of the volume are
 /// the cell and the place in it, so that a look-up takes one square root and no logarithm. Overlaps have cells of their
 /// own.
 /// \par Units   inside: lengths in R₁, forces over R₁ [N/m]
 /// \par Source  the variables are this project's; after a table in (ln V, √(1 − ξ)), ξ a ratio of logarithms of the gap
-template <int Octaves = 20, int GapCells = 12>
+template <int Octaves = 16, int GapCells = 12>
   requires(Octaves > 0 && GapCells > 1)
 class bridge_table {
  public:
@@ -162,6 +162,7 @@ class bridge_table {
     radius1_ = range.radius1;
     ratio_ = range.radius2 / range.radius1;
     unit_ = range.least_volume / (radius1_ * radius1_ * radius1_);
+    per_unit_ = 1 / unit_;
     depth_ = range.deepest_overlap / radius1_;
     const table_report made = fill(law, rows);
     if (made.reason == bridge_status::ok) {
@@ -181,7 +182,7 @@ class bridge_table {
       other = e.radius1;
     }
     const double inverse = 1 / radius;
-    const double v = volume * (inverse * inverse * inverse) / unit_;
+    const double v = volume * (inverse * inverse * inverse) * per_unit_;
     if (!(v >= 1 && v < top_) || !alike(other, radius)) {
       return detail::no_pull<double>(why_not(e, volume));
     }
@@ -211,7 +212,7 @@ class bridge_table {
   static constexpr int per_octave = 4;
   static constexpr int row_count = Octaves * per_octave;
   static constexpr int OverlapCells = 3;
-  static constexpr std::size_t volume_nodes = 4;
+  static constexpr std::size_t volume_nodes = 5;
   static constexpr std::size_t gap_nodes = 6;
   static constexpr std::size_t rupture_nodes = 8;
   static constexpr std::size_t cell_count = static_cast<std::size_t>(GapCells + OverlapCells);
@@ -219,17 +220,16 @@ class bridge_table {
 
   /// A polynomial in the place in the volume cell and the place in the gap cell, both from −1 to 1.
   struct patch {
-    std::array<std::array<double, volume_nodes>, gap_nodes> by_gap;
+    std::array<std::array<double, gap_nodes>, volume_nodes> by;  ///< by power of the volume, then of the gap
 
     [[nodiscard]] double at(double t, double y) const noexcept {
-      const double y2 = y * y;
       const double t2 = t * t;
-      std::array<double, volume_nodes> sum;
-      for (std::size_t i = 0; i < volume_nodes; ++i) {
-        sum[i] = (by_gap[0][i] + y * by_gap[1][i]) + y2 * ((by_gap[2][i] + y * by_gap[3][i]) +
-                                                           y2 * (by_gap[4][i] + y * by_gap[5][i]));
+      const double y2 = y * y;
+      std::array<double, gap_nodes> c;
+      for (std::size_t j = 0; j < gap_nodes; ++j) {
+        c[j] = (by[0][j] + t * by[1][j]) + t2 * ((by[2][j] + t * by[3][j]) + t2 * by[4][j]);
       }
-      return (sum[0] + t * sum[1]) + t2 * (sum[2] + t * sum[3]);
+      return (c[0] + y * c[1]) + y2 * ((c[2] + y * c[3]) + y2 * (c[4] + y * c[5]));
     }
   };
   struct row {
@@ -367,7 +367,10 @@ class bridge_table {
           for (std::size_t i = 0; i < volume_nodes; ++i) {
             across[i] = fitted[i][j];
           }
-          made.force[static_cast<std::size_t>(c)].by_gap[j] = detail::product(volume_fit, across);
+          const auto powers = detail::product(volume_fit, across);
+          for (std::size_t i = 0; i < volume_nodes; ++i) {
+            made.force[static_cast<std::size_t>(c)].by[i][j] = powers[i];
+          }
         }
       }
     }
@@ -437,6 +440,7 @@ class bridge_table {
   double radius1_ = 1;
   double ratio_ = 1;
   double unit_ = 1;   ///< the least volume, in R₁³
+  double per_unit_ = 1;
   double top_ = 0;    ///< the end of the last row, in the least volume; 0: empty
   double depth_ = 0;  ///< deepest overlap, in R₁
   bool exchangeable_ = false;

@@ -94,10 +94,14 @@ struct calibrated {
 
   template <real T>
   [[nodiscard]] outcome<T, conductance_status> conductance(const throat<T>& t) const noexcept {
+    return conductance(t, hydraulics_of(t));
+  }
+  template <real T>
+  [[nodiscard]] outcome<T, conductance_status> conductance(const throat<T>& t,
+                                                           const hydraulics_outcome<T>& h) const noexcept {
     if (!detail::positive(viscosity)) {
       return detail::no_conductance<T>(conductance_status::invalid_input);
     }
-    const auto h = hydraulics_of(t);
     const conductance_status first = detail::admit(t, h);
     if (first != conductance_status::ok) {
       return detail::refused_by<T>(first);
@@ -119,6 +123,6 @@ struct calibrated {
     return T(static_cast<underlying_t<T>>(x));
   }
 };
-static_assert(conductance_law<calibrated, double>);
+static_assert(hydraulic_law<calibrated, double>);
 
 }  // namespace tetrapore::inline TETRAPORE_ABI

@@ -59,6 +59,17 @@ concept conductance_law = real<T> && std::copyable<L> && requires(const L l, con
   { l.conductance(t) } noexcept -> std::same_as<outcome<T, conductance_status>>;
 };
 
+/// What hydraulics_of answers.
+template <real T>
+using hydraulics_outcome = outcome<throat_hydraulics<T>, geometry_status>;
+
+/// A law that asks a throat's hydraulics, and so can be given them by a caller who has them:
+/// `l.conductance(throat, hydraulics_of(throat))` is `l.conductance(throat)`, to the last bit.
+template <class L, class T = double>
+concept hydraulic_law = conductance_law<L, T> && requires(const L l, const throat<T> t, const hydraulics_outcome<T> h) {
+  { l.conductance(t, h) } noexcept -> std::same_as<outcome<T, conductance_status>>;
+};
+
 namespace detail {
 
 template <real T>
@@ -70,8 +81,7 @@ template <real T>
 
 /// What every law of a throat's own geometry asks first: ok, or why there is no conductance.
 template <real T>
-[[nodiscard]] conductance_status admit(const throat<T>& t,
-                                       const outcome<throat_hydraulics<T>, geometry_status>& h) noexcept {
+[[nodiscard]] conductance_status admit(const throat<T>& t, const hydraulics_outcome<T>& h) noexcept {
   T largest(0);
   for (std::size_t k = 0; k < t.grain_count; ++k) {
     if (!(t.grains[k].radius > T(0))) {

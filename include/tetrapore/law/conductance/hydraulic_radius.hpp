@@ -24,10 +24,14 @@ struct hydraulic_radius {
 
   template <real T>
   [[nodiscard]] outcome<T, conductance_status> conductance(const throat<T>& t) const noexcept {
+    return conductance(t, hydraulics_of(t));
+  }
+  template <real T>
+  [[nodiscard]] outcome<T, conductance_status> conductance(const throat<T>& t,
+                                                           const hydraulics_outcome<T>& h) const noexcept {
     if (!detail::positive(viscosity) || !detail::positive(factor)) {
       return detail::no_conductance<T>(conductance_status::invalid_input);
     }
-    const auto h = hydraulics_of(t);
     const conductance_status first = detail::admit(t, h);
     if (first != conductance_status::ok) {
       return detail::refused_by<T>(first);
@@ -41,6 +45,6 @@ struct hydraulic_radius {
     return {scale * h.value.fluid_area * radius * radius / h.value.length, conductance_status::ok};
   }
 };
-static_assert(conductance_law<hydraulic_radius, double>);
+static_assert(hydraulic_law<hydraulic_radius, double>);
 
 }  // namespace tetrapore::inline TETRAPORE_ABI

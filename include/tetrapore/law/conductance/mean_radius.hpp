@@ -47,11 +47,15 @@ struct mean_radius {
 
   template <real T>
   [[nodiscard]] outcome<T, conductance_status> conductance(const throat<T>& t) const noexcept {
+    return conductance(t, hydraulics_of(t));
+  }
+  template <real T>
+  [[nodiscard]] outcome<T, conductance_status> conductance(const throat<T>& t,
+                                                           const hydraulics_outcome<T>& h) const noexcept {
     using std::sqrt;
     if (!detail::positive(viscosity)) {
       return detail::no_conductance<T>(conductance_status::invalid_input);
     }
-    const auto h = hydraulics_of(t);
     const conductance_status first = detail::admit(t, h);
     if (first != conductance_status::ok) {
       return detail::refused_by<T>(first);
@@ -69,6 +73,6 @@ struct mean_radius {
     return {scale * area * radius * radius / h.value.length, conductance_status::ok};
   }
 };
-static_assert(conductance_law<mean_radius, double>);
+static_assert(hydraulic_law<mean_radius, double>);
 
 }  // namespace tetrapore::inline TETRAPORE_ABI
