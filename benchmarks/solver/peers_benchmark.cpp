@@ -211,5 +211,7 @@ BENCHMARK(cold<cg_vcycle>)->Name("large_eigen_cg_vcycle_cold")->Apply(large);
 BENCHMARK(cold<cholmod_solver>)->Name("large_cholmod_cold")->Apply(large);
 BENCHMARK(again<cholmod_solver>)->Name("large_cholmod_again")->Apply(large);
 BENCHMARK(resolve<cholmod_solver>)->Name("large_cholmod_resolve")->Apply(large);
+BENCHMARK(cholmod_resolve_unrefined)->Name("large_cholmod_resolve_unrefined")->Apply(large);
+BENCHMARK(raw_simplicial_ldlt)->Name("large_raw_simplicial_ldlt")->Apply(large)->Iterations(1);
 BENCHMARK(raw_cg<Eigen::DiagonalPreconditioner<double>>)->Name("large_raw_cg_diagonal")->Apply(large);
 BENCHMARK(raw_cg<Eigen::IncompleteCholesky<double>>)->Name("large_raw_cg_incomplete_cholesky")->Apply(large);
