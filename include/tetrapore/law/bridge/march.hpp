@@ -97,7 +97,7 @@ class path {
       for (int i = 0; i < n; ++i) {
         step[i] = a[i][n];
         if (i > 0) {
-          size = std::max(size, std::abs(step[i]));
+          size = larger(size, std::abs(step[i]));
         }
       }
       if (!isfinite(size) || size > T(0.5)) {
@@ -276,7 +276,7 @@ template <int N, bool Equal, std::floating_point T>
     }
     if (!passed && !folded) {
       from = next;
-      h = std::min(h * (iterations <= 3 ? T(1.6) : T(1)), T(0.6));
+      h = smaller(h * (iterations <= 3 ? T(1.6) : T(1)), T(0.6));
       continue;
     }
     // between `from`, which lies before, and `next`: the fold first, then the target if it lies before the fold
@@ -300,7 +300,7 @@ template <int N, bool Equal, std::floating_point T>
           high = tau;
           at_high = mid;
         }
-        const T least = std::min(std::abs(at_low.slope), std::abs(at_high.slope));
+        const T least = smaller(std::abs(at_low.slope), std::abs(at_high.slope));
         if (sign * (mid.reach - target) >= T(0) ||
             least * (high - low) < T(0.1) * std::numeric_limits<T>::epsilon() * std::abs(mid.reach)) {
           break;
@@ -373,7 +373,7 @@ template <int N, bool Equal, std::floating_point T>
   f.converged = false;
   for (int i = 0; i < 12 && !f.converged; ++i, circle *= T(0.4)) {
     const T value = easy(circle);
-    at_contact.value = by_volume ? std::min(value, d.value) : std::max(value, d.value);
+    at_contact.value = by_volume ? smaller(value, d.value) : larger(value, d.value);
     f = newton<N, Equal>(pair, at_contact, first_guess<Equal>(pair, at_contact), 12);
     if (f.converged) {
       const auto index = index_of<Equal>(pair, f, d.by);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "tetrapore/geometry/status.hpp"
 #include "tetrapore/law/bridge/meniscus.hpp"
 #include "tetrapore/law/bridge/profile.hpp"
 
-#include <algorithm>
+#include <utility>
 
 /// \file
 /// The profile of a given gap and volume or suction: Newton's method on all four equations.
@@ -85,7 +86,7 @@ template <bool Equal, std::floating_point T>
 [[nodiscard]] inline T bounded(const profile<T>& u, const T& scale, const T (&by)[4]) noexcept {
   T largest = std::abs(by[0]) / (T(1) + std::abs(u.k) * scale);
   for (int i = 1; i < unknowns<Equal>; ++i) {
-    largest = std::max(largest, std::abs(by[i]));
+    largest = larger(largest, std::abs(by[i]));
   }
   return largest > T(0.5) ? T(0.5) / largest : T(1);
 }
@@ -108,7 +109,7 @@ inline void choose_chart(const surface_pair<T>& pair, profile<T>& u) noexcept {
     p[i] = sqrt(re[i] * re[i] + im[i] * im[i]);
     lambda[i] = at.radius * (at.sine + u.k * at.radius);
   }
-  const T least = std::min(p[0], p[1]);
+  const T least = smaller(p[0], p[1]);
   const bool bulge = im[0] > T(0) && im[1] > T(0) && u.k < T(0);  // both circles on the way to it
   const bool neck = !(u.k < T(0)) || (!bulge && re[0] + re[1] > T(0) && least > T(0.1) && lambda[0] > T(0) && lambda[1] > T(0) &&
                                       re[0] > T(-0.9) * p[0] && re[1] > T(-0.9) * p[1]);
@@ -242,9 +243,10 @@ template <bool Equal, std::floating_point T>
 }
 
 inline constexpr int newton_cap = 30;
+inline constexpr int coarse_nodes = 4;  ///< what a rough iterate is worth
 
-/// Newton's method from `u`.
-template <int N, bool Equal, std::floating_point T>
+/// Newton's method from `u`. A rough start is improved with few nodes until its steps are small.
+template <int N, bool Equal, bool Rough = false, std::floating_point T>
 [[nodiscard]] inline found<T> newton(const surface_pair<T>& pair, const demand<T>& d, const profile<T>& u,
                                      int cap = newton_cap) noexcept {
   using std::isfinite;
@@ -253,8 +255,10 @@ template <int N, bool Equal, std::floating_point T>
   f.converged = false;
   T before = T(1);
   int charts = 0;
+  bool trusted = false;
+  bool coarse = Rough && N > coarse_nodes;
   for (int iteration = 0; iteration < cap; ++iteration) {
-    f.at = sample_of<N, Equal>(pair, f.u);
+    f.at = coarse ? sample_of<coarse_nodes, Equal>(pair, f.u) : sample_of<N, Equal>(pair, f.u);
     T step[4];
     if (!f.at.sound) {
       const chart was = f.u.by;
@@ -269,19 +273,19 @@ template <int N, bool Equal, std::floating_point T>
     }
     T size = std::abs(step[0]) / (T(1) + std::abs(f.u.k) * f.at.scale);
     for (int i = 1; i < unknowns<Equal>; ++i) {
-      size = std::max(size, std::abs(step[i]));
+      size = larger(size, std::abs(step[i]));
     }
     if (!isfinite(size)) {
       return f;
     }
     const T factor = size > T(0.5) ? T(0.5) / size : T(1);
-    const profile<T> from = f.u;
     move<Equal>(f.u, f.at.scale, step, factor);
     // the error after a step is its square times that of the last; a step that no longer shrinks is rounding
     const T gain = size / before;
     const bool settled = size * gain * gain < T(8) * std::numeric_limits<T>::epsilon() && size < T(1e-3);
     const bool stalled = size < T(1e8) * std::numeric_limits<T>::epsilon() && gain > T(0.3);
-    if (size * size < std::numeric_limits<T>::epsilon() * T(1e-2) || (iteration > 0 && (settled || stalled))) {
+    const bool small = size * size < std::numeric_limits<T>::epsilon() * T(1e-2);
+    if (!coarse && (small || (trusted && (settled || stalled)))) {
       f.volume = f.at.volume;
       for (int i = 0; i < unknowns<Equal>; ++i) {
         f.volume += f.at.by[volume_row][i] * step[i];
@@ -294,10 +298,11 @@ template <int N, bool Equal, std::floating_point T>
         f.lambda = first.radius * first.sine + f.u.k * first.radius * first.radius;
       }
       f.converged = true;
-      static_cast<void>(from);
       return f;
     }
     before = size;
+    trusted = !coarse;  // this step and the next share their rule
+    coarse = coarse && size > T(0.02);
     if (f.u.by == chart::from_extremum && T(1) + T(2) * f.u.k * f.u.extent < T(0.1) && charts < 3) {
       ++charts;
       choose_chart<Equal>(pair, f.u);
@@ -307,67 +312,64 @@ template <int N, bool Equal, std::floating_point T>
 }
 
 /// The bridge as if its profile were an arc of a circle and both contact circles of one size.
-template <std::floating_point T>
-struct toroid {
-  T circle;  ///< radius of the contact circles
-  T arc;     ///< radius of the arc, negative where it bulges
+template <bool Equal, std::floating_point T>
+struct circular_bridge {
+  T span;     ///< along the axis, from circle to circle
+  T cosines;  ///< of δ + θ, summed
+  T arc;      ///< radius of the arc, negative where it bulges
   T neck;
-  T k;
-  T length;
   T volume;
   std::array<T, 2> w;
 
-  toroid(const surface_pair<T>& pair, const T& gap, const T& rc) noexcept {
-    using std::atan2;
+  circular_bridge(const surface_pair<T>& pair, const T& gap, const T& rc) noexcept {
     using std::sqrt;
-    circle = rc;
-    T cosines(0);
-    T span = gap;
-    T sines[2];
-    T slopes[2];
+    const T both = Equal ? T(2) : T(1);
+    cosines = T(0);
+    span = gap;
+    T sag(0);    // Σ (1 − sin)
+    T lunes(0);  // between arc and chord, over arc²
+    T rise(0);
     T caps(0);
-    for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t i = 0; i < (Equal ? 1U : 2U); ++i) {
       const wetted_surface<T>& on = pair.side[i];
-      const T sine = std::min(on.curvature * rc, T(0.97));
+      const T sine = smaller(on.curvature * rc, T(0.97));
       const T cosine = sqrt(T(1) - sine * sine);
-      w[i] = T(2) * std::min(rc, sine > T(0) ? sine / on.curvature : rc) / (T(1) + cosine);
-      const contact_circle<T> at(on, w[i]);
-      sines[i] = at.sine;
-      slopes[i] = at.cosine;
-      cosines += at.cosine;
-      span += at.height;
-      caps += at.cap;
-    }
-    const T bend = std::abs(cosines) > T(1e-3) ? cosines : T(1e-3);
-    arc = span / bend;
-    volume = pi<T> * rc * rc * span - caps;
-    T sag(0);
-    T turned(0);
-    for (std::size_t i = 0; i < 2; ++i) {
-      const T c = slopes[i];
-      const T own = arc * (T(1) - sines[i]);
+      w[i] = T(2) * (sine < T(0.97) ? rc : sine / on.curvature) / (T(1) + cosine);
+      const T level = T(0.5) * w[i] * rc;
+      const T height = on.curvature * level;
+      const T g = sine * on.cosine + cosine * on.sine;
+      const T c = cosine * on.cosine - sine * on.sine;
       const T s2 = c * c;
-      // angle − sin cos of the half arc, times ρ²/2
-      const T lune = T(0.5) * arc * arc * c * s2 *
-                     (T(0.6667) + s2 * (T(0.2) + s2 * (T(0.107) + T(0.597) * s2 * s2 * s2 * s2)));
-      volume -= T(2) * pi<T> * (rc - T(0.4) * own) * lune;
-      sag += T(0.5) * own;
-      turned += atan2(c, sines[i]);
+      // (φ − sin φ cos φ) / 2, to a per cent
+      const T lune = c * s2 * (T(0.333) + s2 * (T(0.1) + s2 * (T(0.054) + T(0.298) * s2 * s2 * s2 * s2)));
+      cosines += both * c;
+      span += both * height;
+      caps += both * (pi<T> / T(3)) * height * level * (T(2) + cosine);
+      sag += both * (T(1) - g);
+      lunes += both * lune;
+      rise += both * lune * (T(1) - g);
     }
-    neck = rc - sag;
-    length = std::abs(cosines) > T(1e-3) ? arc * turned : span;
-    neck = std::max(neck, T(0.25) * rc);
-    k = T(0.5) * (T(1) / arc - T(1) / neck);
+    if constexpr (Equal) {
+      w[1] = w[0];
+    }
+    const T bend = cosines > T(1e-3) || cosines < T(-1e-3) ? cosines : T(1e-3);
+    arc = span / bend;
+    neck = larger(rc - T(0.5) * arc * sag, T(0.25) * rc);
+    volume = pi<T> * rc * rc * span - caps - T(2) * pi<T> * arc * arc * (rc * lunes - T(0.4) * arc * rise);
   }
+
+  [[nodiscard]] T k() const noexcept { return T(0.5) * (T(1) / arc - T(1) / neck); }
 };
 
 template <bool Equal, std::floating_point T>
-[[nodiscard]] inline profile<T> profile_of(const surface_pair<T>& pair, const toroid<T>& t) noexcept {
-  profile<T> u{t.k, t.neck, t.w, chart::from_extremum};
-  const chart was = u.by;
-  choose_chart<Equal>(pair, u);
-  if (u.by != was) {
-    u.extent = Equal ? T(0.5) * t.length : t.length;
+[[nodiscard]] inline profile<T> profile_of(const surface_pair<T>& pair, const circular_bridge<Equal, T>& t,
+                                           const T& k) noexcept {
+  profile<T> u{k, t.neck, t.w, chart::from_extremum};
+  if (k < T(0)) {
+    choose_chart<Equal>(pair, u);
+    if (u.by == chart::from_contact && !(u.extent > T(0.2) * t.span && u.extent < T(3) * t.span)) {
+      u.extent = Equal ? T(0.5) * t.span : t.span;
+    }
   }
   return u;
 }
@@ -375,60 +377,84 @@ template <bool Equal, std::floating_point T>
 /// Where Newton's method starts.
 template <bool Equal, std::floating_point T>
 [[nodiscard]] inline profile<T> first_guess(const surface_pair<T>& pair, const demand<T>& d) noexcept {
-  using std::isfinite;
   using std::sqrt;
+  using bridge_type = circular_bridge<Equal, T>;
   const T curvature = pair.side[0].curvature + pair.side[1].curvature;
-  const T gap = std::max(d.gap, T(0));
+  const T gap = larger(d.gap, T(0));
   if (d.by == bridge_control::volume) {
     // the cylinder between two paraboloids: πr²g + π r⁴ curvature / 4 = V
     const T half = T(2) * gap / curvature;
     const T target = T(4) * d.value / (pi<T> * curvature);
     T rc = sqrt(target / (half + sqrt(half * half + target)));
-    toroid<T> t(pair, gap, rc);
+    bridge_type t(pair, gap, rc);
     for (int i = 0; i < 4; ++i) {
       const T miss = d.value / t.volume - T(1);
       if (!(t.volume > T(0)) || miss > T(1)) {
         rc *= T(1.3);
       } else {
         const T quadratic = curvature * rc * rc;
-        const T power = (T(2) * gap + quadratic) / (gap + T(0.25) * quadratic);
-        rc *= T(1) + miss / power;
+        rc *= T(1) + miss * (gap + T(0.25) * quadratic) / (T(2) * gap + quadratic);
       }
-      t = toroid<T>(pair, gap, rc);
-      if (std::abs(miss) < T(0.05)) {
+      t = bridge_type(pair, gap, rc);
+      if (std::abs(miss) < T(0.1)) {
         break;
       }
     }
-    return profile_of<Equal>(pair, t);
+    return profile_of<Equal>(pair, t, t.k());
   }
-  // ρ = 1 / (2k + 1/neck) from the largest neck down
-  const T wetting = pair.side[0].cosine + pair.side[1].cosine;
+  // span (2k + 1/neck) = Σ cos: the larger root, from above, by secants in the square of the circle
   const T k = d.value;
-  const T widest = T(0.95) / std::max(pair.side[0].curvature, pair.side[1].curvature);
-  T rc = widest;
+  const T wetting = pair.side[0].cosine + pair.side[1].cosine;
+  const T widest = T(0.95) / larger(pair.side[0].curvature, pair.side[1].curvature);
+  T x = widest * widest;
   if (k > T(0)) {
-    const T square = T(2) * (T(0.5) * wetting / k - gap) / curvature;
-    rc = square > T(0) ? std::min(sqrt(square), widest) : widest;
+    x = smaller(x, larger(T(2) * (T(0.5) * wetting / k - gap), T(1e-2) * wetting / k) / curvature);
   }
-  toroid<T> t(pair, gap, rc);
-  for (int i = 0; i < 8; ++i) {
-    const T arc = T(1) / (T(2) * k + T(1) / t.neck);
-    const T cosines = t.arc > T(0) ? (gap + curvature * T(0.5) * rc * rc) / t.arc : wetting;
-    const T square = T(2) * (arc * cosines - gap) / curvature;
-    if (!(arc > T(0)) || !(square > T(0))) {
+  bridge_type t(pair, gap, sqrt(x));
+  T excess = t.span * (T(2) * k + T(1) / t.neck) - t.cosines;
+  T slope = T(0.5) * curvature * (T(2) * k + T(1) / t.neck);
+  for (int i = 0; i < 6 && excess > T(0.02) * t.cosines && slope > T(0); ++i) {
+    const T next = larger(x - excess / slope, T(0.2) * x);
+    t = bridge_type(pair, gap, sqrt(next));
+    const T now = t.span * (T(2) * k + T(1) / t.neck) - t.cosines;
+    slope = (excess - now) / (x - next);
+    x = next;
+    excess = now;
+  }
+  return profile_of<Equal>(pair, t, k);
+}
+
+/// The bridge asked for, from the first guess; near its fold by way of smaller gaps, from where Newton's method comes
+/// to the fold on the stable side. What is found is stable.
+template <int N, bool Equal, std::floating_point T>
+[[nodiscard]] inline found<T> approach(const surface_pair<T>& pair, const demand<T>& d) noexcept {
+  const auto stable = [&](const found<T>& f) {
+    if (!f.converged) {
+      return false;
+    }
+    const stability_index index = index_of<Equal>(pair, f, d.by);
+    return (d.by == bridge_control::volume ? index.at_volume : index.at_suction) == 0;
+  };
+  found<T> f = newton<N, Equal, true>(pair, d, first_guess<Equal>(pair, d), 12);
+  if (stable(f)) {
+    return f;
+  }
+  for (const T share : {T(0.75), T(0)}) {
+    demand<T> nearer = d;
+    nearer.gap *= share;
+    f = newton<N, Equal, true>(pair, nearer, first_guess<Equal>(pair, nearer), 12);
+    if (stable(f)) {
+      f = newton<N, Equal>(pair, d, f.u, 12);
+      if (stable(f)) {
+        return f;
+      }
+    }
+    if (!(d.gap > T(0))) {
       break;
     }
-    const T next = std::min(sqrt(square), widest);
-    const T change = std::abs(next - rc);
-    rc = next;
-    t = toroid<T>(pair, gap, rc);
-    if (change < T(0.02) * rc) {
-      break;
-    }
   }
-  profile<T> u = profile_of<Equal>(pair, t);
-  u.k = k;
-  return u;
+  f.converged = false;
+  return f;
 }
 
 }  // namespace detail

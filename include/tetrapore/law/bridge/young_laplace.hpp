@@ -99,7 +99,7 @@ struct young_laplace {
     const bool angles = contact_angle1 >= 0 && contact_angle1 < right && contact_angle2 >= 0 && contact_angle2 < right;
     const bool radii = e.radius1 > T(0) && e.radius2 > T(0) && (isfinite(e.radius1) || isfinite(e.radius2));
     return surface_tension.get() > 0 && surface_tension.get() < infinity<double> && angles && radii &&
-           isfinite(e.gap) && e.gap > -std::min(e.radius1, e.radius2);
+           isfinite(e.gap) && e.gap > -detail::smaller(e.radius1, e.radius2);
   }
 
   template <class T, class W = work<T>>
@@ -133,7 +133,7 @@ struct young_laplace {
     const detail::contact_circle<W> first(pair.side[0], u.w[0]);
     const detail::contact_circle<W> second(pair.side[1], u.w[1]);
     const W fill1 = W(2) * atan(W(0.5) * pair.side[0].curvature * u.w[0]);
-    W neck = std::min(first.radius, second.radius);
+    W neck = detail::smaller(first.radius, second.radius);
     const bool by_length = u.by == detail::chart::from_contact;
     if (!by_length && first.cosine > W(0) && second.cosine > W(0)) {
       neck = u.extent;
@@ -204,34 +204,18 @@ struct young_laplace {
       f = from_warm<T, Equal>(pair, d, w);
     }
     if (!f.converged) {
-      f = detail::newton<Nodes, Equal>(pair, d, detail::first_guess<Equal>(pair, d), 12);
-      if (!f.converged || !holds(detail::index_of<Equal>(pair, f, d.by), d.by)) {
-        const auto trip = detail::travel<fine, Equal>(pair, d, d.gap);
+      f = detail::approach<Nodes, Equal>(pair, d);
+      if (f.converged) {
+        refine<Equal>(pair, d, f);
+      }
+    }
+    if (!f.converged) {
+      const bridge_status why = travel_to<Equal>(pair, d, f);
+      if (why != bridge_status::ok) {
         if constexpr (Warm) {
           w.warm = false;
         }
-        if (trip.how == detail::arrival::at_fold) {
-          return without<T>(d.gap < W(0) ? bridge_status::flooded : bridge_status::ruptured);
-        }
-        if (trip.how == detail::arrival::at_limit) {
-          return without<T>(bridge_status::flooded);
-        }
-        if (trip.how == detail::arrival::lost) {
-          return without<T>(bridge_status::not_converged);
-        }
-        f = detail::newton<fine, Equal>(pair, d, trip.end.u);
-        if (!f.converged) {
-          return without<T>(bridge_status::not_converged);
-        }
-        const auto index = detail::index_of<Equal>(pair, f, d.by);
-        if (!holds(index, d.by)) {
-          return without<T>(index.slides ? bridge_status::lopsided : bridge_status::ruptured);
-        }
-      } else if (sensitive<Equal>(f, d)) {
-        f = detail::newton<fine, Equal>(pair, d, f.u);
-        if (!f.converged) {
-          return without<T>(bridge_status::not_converged);
-        }
+        return without<T>(why);
       }
     }
     if constexpr (Warm) {
@@ -249,9 +233,40 @@ struct young_laplace {
             bridge_status::ok};
   }
 
+  /// The last digits near a fold, where errors of the quadrature reach the force enlarged.
+  template <bool Equal, class W>
+  static void refine(const detail::surface_pair<W>& pair, const detail::demand<W>& d, detail::found<W>& f) noexcept {
+    if (sensitive<Equal>(f)) {
+      f = detail::newton<fine, Equal>(pair, d, f.u, 8);
+      f.converged = f.converged && holds(detail::index_of<Equal>(pair, f, d.by), d.by);
+    }
+  }
+
+  /// The bridge by way of its whole curve from the bridge at contact, or why there is none.
+  template <bool Equal, class W>
+  [[nodiscard]] static bridge_status travel_to(const detail::surface_pair<W>& pair, const detail::demand<W>& d,
+                                               detail::found<W>& f) noexcept {
+    const auto trip = detail::travel<fine, Equal>(pair, d, d.gap);
+    switch (trip.how) {
+      case detail::arrival::at_fold: return d.gap < W(0) ? bridge_status::flooded : bridge_status::ruptured;
+      case detail::arrival::at_limit: return bridge_status::flooded;
+      case detail::arrival::lost: return bridge_status::not_converged;
+      case detail::arrival::at_target: break;
+    }
+    f = detail::newton<fine, Equal>(pair, d, trip.end.u);
+    if (!f.converged) {
+      return bridge_status::not_converged;
+    }
+    const auto index = detail::index_of<Equal>(pair, f, d.by);
+    if (!holds(index, d.by)) {
+      return index.slides ? bridge_status::lopsided : bridge_status::ruptured;
+    }
+    return bridge_status::ok;
+  }
+
   /// Whether errors of the quadrature reach the force enlarged.
   template <bool Equal, class W>
-  [[nodiscard]] static bool sensitive(const detail::found<W>& f, const detail::demand<W>&) noexcept {
+  [[nodiscard]] static bool sensitive(const detail::found<W>& f) noexcept {
     W lambda_gap(0);
     for (int i = 0; i < detail::unknowns<Equal>; ++i) {
       lambda_gap += f.at.lambda_by[i] * f.by_gap[i];
@@ -280,7 +295,7 @@ struct young_laplace {
     W size(0);
     for (int i = 0; i < 4; ++i) {
       step[i] = gap * w.by_gap[i] + value * w.by_value[i];
-      size = std::max(size, std::abs(step[i]) / (i == 0 ? W(1) + std::abs(w.u.k) * w.scale : W(1)));
+      size = detail::larger(size, std::abs(step[i]) / (i == 0 ? W(1) + std::abs(w.u.k) * w.scale : W(1)));
     }
     if (!(size < W(0.1))) {
       return f;
@@ -292,9 +307,7 @@ struct young_laplace {
       f.converged = false;
       return f;
     }
-    if (sensitive<Equal>(f, d)) {
-      f = detail::newton<fine, Equal>(pair, d, f.u, 6);
-    }
+    refine<Equal>(pair, d, f);
     return f;
   }
 
