@@ -24,6 +24,7 @@ struct row_result {
   double per_condition = 0;                ///< that error beyond the table's digits, over the condition
   double digits = 0;                       ///< relative half unit of the table's last digit; 0: finer than a double
   std::optional<double> derivative_error;  ///< relative, of the derivatives, where they are measured
+  std::string name{};                      ///< of the row in the table, for who looks for what is wrong
 };
 
 struct law_report {
@@ -43,7 +44,7 @@ inline double percentile_99(std::vector<double> x) {
   return x[rank - 1];
 }
 
-/// Prints the line of a law; returns how many rows are wrong.
+/// Prints the line of a law, and on stderr the names of its wrong rows; returns how many these are.
 inline std::size_t print(const law_report& r) {
   std::size_t solved = 0;
   std::size_t wrong = 0;
@@ -53,7 +54,10 @@ inline std::size_t print(const law_report& r) {
   std::vector<double> slopes;
   for (const auto& row : r.rows) {
     solved += row.solved ? 1U : 0U;
-    wrong += row.wrong ? 1U : 0U;
+    if (row.wrong) {
+      std::fprintf(stderr, "%s %s %s", wrong++ == 0 ? (r.law + " is wrong in").c_str() : ",", row.name.c_str(),
+                   row.solved ? "" : "(no answer)");
+    }
     per_condition = std::max(per_condition, row.per_condition);
     digits = std::max(digits, row.digits);
     if (row.error) {
@@ -62,6 +66,9 @@ inline std::size_t print(const law_report& r) {
     if (row.derivative_error) {
       slopes.push_back(*row.derivative_error);
     }
+  }
+  if (wrong > 0) {
+    std::fprintf(stderr, "\n");
   }
   const double worst = errors.empty() ? 0 : *std::max_element(errors.begin(), errors.end());
   std::printf(
