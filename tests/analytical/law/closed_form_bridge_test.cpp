@@ -21,7 +21,8 @@ double force(const Law& law, const edge<double>& e, double volume) {
   return answer.value.force;
 }
 
-/// Volume between the meridian circle of a ring and the surfaces, by Simpson's rule along the axis: an independent path.
+/// Volume between the meridian circle of a ring and the surfaces, by Simpson's rule along the axis: an independent
+/// path.
 double volume_by_slices(const edge<double>& e, const toroid_ring<double>& r, double x_centre) {
   const double x1 = -e.radius1 * (1 - std::cos(r.filling1));
   const double x2 = e.with_plane() ? e.gap : e.gap + e.radius2 * (1 - std::cos(r.filling2));
@@ -169,9 +170,11 @@ TEST_CASE("the toroid meets both surfaces at their angles and holds its volume")
       CHECK(y == doctest::Approx(r.filling2 + r.arc * std::sin(angle2)).epsilon(1e-12));
     } else {
       const double reach = std::hypot(s.gap + s.radius2 - x, y);
-      CHECK(reach * reach == doctest::Approx(s.radius2 * s.radius2 + r.arc * r.arc +
-                                             2 * s.radius2 * r.arc * std::cos(angle2)).epsilon(1e-12));
-      CHECK(std::sin(r.filling2) * s.radius2 == doctest::Approx(y - r.arc * std::sin(r.filling2 + angle2)).epsilon(1e-9));
+      CHECK(reach * reach ==
+            doctest::Approx(s.radius2 * s.radius2 + r.arc * r.arc + 2 * s.radius2 * r.arc * std::cos(angle2))
+                .epsilon(1e-12));
+      CHECK(std::sin(r.filling2) * s.radius2 ==
+            doctest::Approx(y - r.arc * std::sin(r.filling2 + angle2)).epsilon(1e-9));
     }
     CHECK(volume_by_slices(e, r, x) == doctest::Approx(s.volume).epsilon(1e-5));
     // the same ring by its suction

@@ -19,9 +19,13 @@ template <real T>
 }  // namespace detail
 
 /// F = 2πRσ cos θ · 2d / (D + 2d): the derivative by the gap of the surface energy of a disc of liquid with an upright
-/// rim between two paraboloids, d = (D/2) (−1 + √(1 + 2V / πRD²)) its depth on each. Unequal radii and planes by the radius
-/// of Derjaguin, exact for paraboloids.
+/// rim between two paraboloids, d = (D/2) (−1 + √(1 + 2V / πRD²)) its depth on each. Unequal radii and planes by the
+/// radius of Derjaguin, exact for paraboloids.
 /// \par Units   surface tension [N/m], angle [rad], result [N]
+/// \par Domain  any radii, a plane; V/R³ ≤ 0.1, R of Derjaguin; gaps from 0 on
+/// \par Accuracy  63 / 27 % (θ = 0: 27 / 16 %), a plane 75 / 23 %; at contact exact for v → 0, 1.7 % off at 1e-6, 6 %
+///                at 1e-4 and θ = 0, 61 % at 0.1 and 50°; v = 1e-6 to 1e-3: 60 / 27 %, within 11 % of the force at
+///                contact
 /// \par Source  Lambert et al. 2008, Langmuir 24, 3157, Eq. (65), the energy term of Rabinovich et al. 2005; derived
 ///              anew. No rupture of its own: that of Lian
 template <class Rupture = lian_rupture>

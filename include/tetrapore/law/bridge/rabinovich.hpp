@@ -9,6 +9,8 @@ namespace tetrapore::inline TETRAPORE_ABI {
 /// a² = 2d/R. The added term counts the surface twice, for the energy holds it already: Lambert et al. took it out.
 /// Kept since users know it.
 /// \par Units   surface tension [N/m], angle [rad], result [N]
+/// \par Domain  as Lambert's
+/// \par Accuracy  179 / 43 % (θ = 0: 56 / 15 %), a plane 203 / 45 %; v = 1e-6 to 1e-3: 64 / 20 %
 /// \par Source  Rabinovich, Esayanur & Moudgil 2005, Langmuir 21, 10992, Eqs. (19), (20). No rupture of its own: that
 ///              of Lian
 template <class Rupture = lian_rupture>
@@ -27,8 +29,7 @@ struct rabinovich {
       const T radius = detail::derjaguin_radius(e);
       const T a = sqrt(T(2) * detail::immersion(e.gap, liquid.value, radius) / radius);
       const T scale = detail::fit_number<T>(2 * pi<double> * surface_tension);
-      answer.value.force =
-          answer.value.force + scale * radius * sin(a) * sin(a + detail::fit_number<T>(contact_angle));
+      answer.value.force = answer.value.force + scale * radius * sin(a) * sin(a + detail::fit_number<T>(contact_angle));
     }
     return answer;
   }

@@ -20,6 +20,9 @@ template <real T>
 
 /// (1 + θ/2) V^⅓.
 /// \par Units   volume [m³], contact angle [rad], result [m]
+/// \par Domain  any; the source has equal spheres
+/// \par Accuracy  against the exact rupture gap, θ ≤ 50°, v = 1e-6 to 0.1: equal spheres −5 to +4 % (1e-3 and below −1
+///                to +4 %); radii 1 : 2 up to +17 %, a plane up to +39 %
 /// \par Source  Lian, Thornton & Adams 1993, J. Colloid Interface Sci. 161, 138, Eq. (15)
 struct lian_rupture {
   template <real T>
@@ -32,6 +35,10 @@ static_assert(rupture_rule<lian_rupture>);
 /// (1 + θ (1 + q)/4) (v^⅓ + (q/2 − 2/5) v^⅔) R, v = V/R³, q the smaller radius over the larger and R that of Derjaguin;
 /// (1 + θ/2) (v^⅓ + v^⅔/10) R for equal spheres.
 /// \par Units   volume [m³], contact angle [rad], result [m]
+/// \par Domain  any radii; a plane is the limit q = 0
+/// \par Accuracy  against the exact rupture gap, θ ≤ 50°, v = 1e-6 to 0.1: equal spheres −0.5 to +4.1 % (0.5 % at θ =
+///                0), radii 1 : 2 −3.5 to +1.3 %, 1 : 10 to a plane −10 to +2 % (1.7 % at θ = 0). Against the fold
+///                alone, which equal spheres with θ of some 30° and more do not reach: −2.5 to +3.8 %
 /// \par Source  Willett et al. 2000, Langmuir 16, 9396, Eq. (15) and its form for unequal radii
 struct willett_rupture {
   template <real T>
@@ -50,6 +57,8 @@ static_assert(rupture_rule<willett_rupture>);
 
 /// (0.99 + 0.62 θ) V^0.34 R for equal spheres, V in R³.
 /// \par Units   volume [m³], contact angle [rad], result [m]
+/// \par Domain  equal spheres
+/// \par Accuracy  against the exact rupture gap, θ ≤ 50°, v = 1e-6 to 0.1: −10 to +5 %
 /// \par Source  Mikami, Kamiya & Horio 1998, Chem. Eng. Sci. 53, 1927
 struct mikami_rupture {
   template <real T>
@@ -62,7 +71,7 @@ struct mikami_rupture {
 };
 static_assert(rupture_rule<mikami_rupture>);
 
-/// Never: a formula alone, as far as it goes.
+/// Never: a formula alone, as far as it goes. \par Source  none
 struct without_rupture {
   template <real T>
   [[nodiscard]] underlying_t<T> gap(const edge<T>&, const T&, double) const noexcept {

@@ -46,7 +46,8 @@ template <std::size_t N>
   x[N - 1] = 1;
   return x;
 }
-/// Where a polynomial through the places is worst: between them, and below the first where that is no end.
+/// Between the places, and below the first where that is no end. A polynomial through ends_and_between is worst in the
+/// middles that are no neighbours of an end.
 template <std::size_t N>
 [[nodiscard]] std::array<double, N> middles_of(const std::array<double, N>& x) noexcept {
   std::array<double, N> m;
@@ -97,6 +98,28 @@ template <std::size_t N>
   return y;
 }
 
+/// Asks a law for one bridge after the other along a gap: warm where the law can.
+template <class Law>
+struct column_solver {
+  const Law& law;
+
+  [[nodiscard]] pull_outcome<double> operator()(const edge<double>& e, given_volume<double> liquid) noexcept {
+    const auto answer = law.bridge(e, liquid);
+    return {{answer.value.force}, answer.reason};
+  }
+};
+template <class Law>
+requires warm_bridge_law<Law>
+struct column_solver<Law> {
+  const Law& law;
+  typename Law::template warm_state<double> state{};
+
+  [[nodiscard]] pull_outcome<double> operator()(const edge<double>& e, given_volume<double> liquid) noexcept {
+    const auto answer = law.bridge(e, liquid, state);
+    return {{answer.value.force}, answer.reason};
+  }
+};
+
 /// Degree 7, in pairs, so that the products do not wait for each other.
 [[nodiscard]] inline double polynomial(const std::array<double, 8>& c, double x) noexcept {
   const double x2 = x * x;
@@ -116,14 +139,14 @@ struct table_range {
 
 /// How a table came out.
 struct table_report {
-  bridge_status reason;     ///< ok; else why there is no table: more octaves than it has (not_covered), bad input, or
-                            ///< what the law answered inside the range
-  double error;             ///< of the force on the check grid, in the largest force of the table
-  double error_at_volume;   ///< where [m³]
-  double error_at_gap;      ///< where [m]
-  double rupture_error;     ///< of the rupture gap on the check grid, relative
-  std::uint32_t solved;     ///< bridges of the law in the table
-  std::uint32_t checked;    ///< bridges of the law on the check grid
+  bridge_status reason;    ///< ok; else why there is no table: more octaves than it has (not_covered), bad input, or
+                           ///< what the law answered inside the range
+  double error;            ///< of the force on the check grid, in the largest force of the table
+  double error_at_volume;  ///< where [m³]
+  double error_at_gap;     ///< where [m]
+  double rupture_error;    ///< of the rupture gap on the check grid, relative
+  std::uint32_t solved;    ///< bridges of the law in the table
+  std::uint32_t checked;   ///< bridges of the law on the check grid
 };
 
 /// The storage of a table and its look-up; the caller keeps it, the law `tabulated` points to it.
@@ -138,8 +161,7 @@ struct table_report {
 /// \par Units   inside: lengths in R₁, forces over R₁ [N/m]
 /// \par Source  the variables are this project's; after a table in (ln V, √(1 − ξ)), ξ a ratio of logarithms of the gap
 template <int Octaves = 16, int GapCells = 12>
-  requires(Octaves > 0 && GapCells > 1)
-class bridge_table {
+requires(Octaves > 0 && GapCells > 1) class bridge_table {
  public:
   /// Fills the table by the law, whose angles and surface tension are those of the pair, and measures it between its
   /// nodes. After a report that is not ok the table is empty.
@@ -150,8 +172,9 @@ class bridge_table {
     const edge<double> pair{range.radius1, range.radius2, 0, {}};
     if (detail::admit_pair(pair, 1.0, 0.0, 0.0) != bridge_status::ok ||
         !detail::finite_and_positive(range.least_volume.get()) ||
-        !(range.largest_volume > range.least_volume) || !(range.deepest_overlap >= 0) ||
-        !(range.deepest_overlap < range.radius1) || !(range.deepest_overlap < range.radius2)) {
+        !detail::finite_and_positive(range.largest_volume.get()) || !(range.largest_volume > range.least_volume) ||
+        !(range.deepest_overlap >= 0) || !(range.deepest_overlap < range.radius1) ||
+        !(range.deepest_overlap < range.radius2)) {
       return refused(bridge_status::invalid_input);
     }
     const double span = range.largest_volume / range.least_volume;
@@ -163,6 +186,7 @@ class bridge_table {
     ratio_ = range.radius2 / range.radius1;
     unit_ = range.least_volume / (radius1_ * radius1_ * radius1_);
     per_unit_ = 1 / unit_;
+    per_radius1_ = 1 / radius1_;
     depth_ = range.deepest_overlap / radius1_;
     const table_report made = fill(law, rows);
     if (made.reason == bridge_status::ok) {
@@ -173,25 +197,23 @@ class bridge_table {
     return made;
   }
 
-  /// The force by the table.
-  [[nodiscard]] outcome<bridge_pull<double>, bridge_status> pull(const edge<double>& e, double volume) const noexcept {
-    double radius = e.radius1;
-    double other = e.radius2;
-    if (exchangeable_ && !alike(other, radius)) {
-      radius = e.radius2;
-      other = e.radius1;
-    }
-    const double inverse = 1 / radius;
+  /// The force by the table. \par Units  [m], [m³]
+  [[nodiscard]] outcome<bridge_pull<double>, bridge_status> pull(double radius1, double radius2, double gap_of_pair,
+                                                                 double volume) const noexcept {
+    const bool swapped = exchangeable_ && !alike(radius2, radius1);
+    const double radius = swapped ? radius2 : radius1;
+    const double other = swapped ? radius1 : radius2;
+    const double inverse = radius == radius1_ ? per_radius1_ : 1 / radius;
     const double v = volume * (inverse * inverse * inverse) * per_unit_;
     if (!(v >= 1 && v < top_) || !alike(other, radius)) {
-      return detail::no_pull<double>(why_not(e, volume));
+      return detail::no_pull<double>(why_not({radius1, radius2, gap_of_pair, {}}, volume));
     }
     const place at = place_of(v);
     const row& cells = row_[at.row];
-    const double gap = e.gap * inverse;
+    const double gap = gap_of_pair * inverse;
     const double rupture = detail::polynomial(cells.rupture, at.t);
     if (!(gap <= rupture)) {
-      return detail::no_pull<double>(gap > rupture ? cells.beyond : bridge_status::invalid_input);
+      return detail::no_pull<double>(gap > rupture && gap <= largest ? cells.beyond : bridge_status::invalid_input);
     }
     const double s = cells.scale + cells.scale_slope * at.t;
     double z;  // in widths of a cell, from rupture to contact and on into the overlap
@@ -223,12 +245,13 @@ class bridge_table {
     std::array<std::array<double, gap_nodes>, volume_nodes> by;  ///< by power of the volume, then of the gap
 
     [[nodiscard]] double at(double t, double y) const noexcept {
-      const double t2 = t * t;
-      const double y2 = y * y;
-      std::array<double, gap_nodes> c;
-      for (std::size_t j = 0; j < gap_nodes; ++j) {
-        c[j] = (by[0][j] + t * by[1][j]) + t2 * ((by[2][j] + t * by[3][j]) + t2 * by[4][j]);
+      std::array<double, gap_nodes> c = by[volume_nodes - 1];
+      for (std::size_t i = volume_nodes - 1; i-- > 0;) {
+        for (std::size_t j = 0; j < gap_nodes; ++j) {
+          c[j] = c[j] * t + by[i][j];
+        }
       }
+      const double y2 = y * y;
       return (c[0] + y * c[1]) + y2 * ((c[2] + y * c[3]) + y2 * (c[4] + y * c[5]));
     }
   };
@@ -325,8 +348,9 @@ class bridge_table {
       const double upper = scale_of(volume_at(k, 1), rupture.back());
       made.scale = (lower + upper) / 2;
       made.scale_slope = (upper - lower) / 2;
-      made.beyond = law.bridge(pair_at(rupture[rupture_nodes / 2] * 1.001),
-                               liquid_at(k, rupture_places[rupture_nodes / 2])).reason;
+      made.beyond =
+          law.bridge(pair_at(rupture[rupture_nodes / 2] * 1.001), liquid_at(k, rupture_places[rupture_nodes / 2]))
+              .reason;
       if (verdict_of(made.beyond) != verdict::absent) {
         return refused(made.beyond == bridge_status::ok ? bridge_status::not_covered : made.beyond);
       }
@@ -337,12 +361,13 @@ class bridge_table {
           continue;
         }
         const double t = volume_places[i];
-        for (int c = 0; c < cells; ++c) {
+        detail::column_solver<Law> solver{law};
+        for (int c = cells - 1; c >= 0; --c) {  // from the deepest overlap to rupture
           const auto& places = c == 0 ? first_places : gap_places;
-          for (std::size_t j = c == 0 ? 0 : 1; j < gap_nodes; ++j) {
-            const double gap = gap_of(c + (places[j] + 1) / 2, detail::polynomial(made.rupture, t),
-                                      made.scale + made.scale_slope * t);
-            const auto answer = law.bridge(pair_at(gap), liquid_at(k, t));
+          for (std::size_t j = gap_nodes; j-- > (c == 0 ? 0U : 1U);) {
+            const double gap =
+                gap_of(c + (places[j] + 1) / 2, detail::polynomial(made.rupture, t), made.scale + made.scale_slope * t);
+            const auto answer = solver(pair_at(gap), liquid_at(k, t));
             if (!answer.ok()) {
               return refused(answer.reason);
             }
@@ -388,7 +413,8 @@ class bridge_table {
     exchangeable_ = false;
     for (int k = 0; k < rows; ++k) {
       const row& made = row_[static_cast<std::size_t>(k)];
-      for (const double t : volume_places) {
+      for (std::size_t i = 2; i + 1 < volume_nodes; ++i) {
+        const double t = volume_places[i];
         const auto liquid = liquid_at(k, t);
         const double rupture = detail::polynomial(made.rupture, t);
         const auto limit = law.rupture_gap(pair_at(0), liquid);
@@ -398,12 +424,14 @@ class bridge_table {
           top_ = 0;
           return refused(limit.ok() ? bridge_status::not_covered : limit.reason);
         }
-        report.rupture_error = detail::size_of(off) > report.rupture_error ? detail::size_of(off) : report.rupture_error;
+        report.rupture_error =
+            detail::size_of(off) > report.rupture_error ? detail::size_of(off) : report.rupture_error;
         for (int c = 0; c < cells; ++c) {
-          for (const double y : c == 0 ? first_places : gap_places) {
+          for (std::size_t j = c == 0 ? 0 : 2; j + 1 < gap_nodes; ++j) {
+            const double y = c == 0 ? first_places[j] : gap_places[j];
             const auto e = pair_at(gap_of(c + (y + 1) / 2, rupture, made.scale + made.scale_slope * t));
             const auto exact = law.bridge(e, liquid);
-            const auto mine = pull(e, liquid.value);
+            const auto mine = pull(e.radius1, e.radius2, e.gap, liquid.value);
             if (!exact.ok() || !mine.ok()) {
               rows_ = 0;
               top_ = 0;
@@ -439,7 +467,8 @@ class bridge_table {
 
   double radius1_ = 1;
   double ratio_ = 1;
-  double unit_ = 1;   ///< the least volume, in R₁³
+  double unit_ = 1;  ///< the least volume, in R₁³
+  double per_radius1_ = 1;
   double per_unit_ = 1;
   double top_ = 0;    ///< the end of the last row, in the least volume; 0: empty
   double depth_ = 0;  ///< deepest overlap, in R₁
@@ -459,9 +488,8 @@ struct tabulated {
 
   template <std::floating_point T>
   [[nodiscard]] outcome<bridge_pull<T>, bridge_status> bridge(const edge<T>& e, given_volume<T> liquid) const noexcept {
-    const edge<double> pair{static_cast<double>(e.radius1), static_cast<double>(e.radius2),
-                            static_cast<double>(e.gap), {}};
-    const auto answer = table->pull(pair, static_cast<double>(liquid.value));
+    const auto answer = table->pull(static_cast<double>(e.radius1), static_cast<double>(e.radius2),
+                                    static_cast<double>(e.gap), static_cast<double>(liquid.value));
     return {{static_cast<T>(answer.value.force)}, answer.reason};
   }
 };

@@ -140,22 +140,25 @@ struct upper_root {
 /// What the toroid answers. Lengths [m], angles [rad].
 template <real T>
 struct toroid_ring {
-  T force;    ///< [N]
-  T volume;   ///< [m³]
-  T suction;  ///< [Pa]
-  T neck;     ///< radius of the gorge
-  T arc;      ///< radius of the meridian circle
+  T force;               ///< [N]
+  T volume;              ///< [m³]
+  T suction;             ///< [Pa]
+  T neck;                ///< radius of the gorge
+  T arc;                 ///< radius of the meridian circle
   T filling1, filling2;  ///< half filling angles; on a plane the radius of the contact line
 };
 
 /// The bridge whose meridian is a circle that meets both surfaces at their contact angles: suction σ (1/ρ − 1/y), ρ the
 /// radius of that circle and y that of the gorge, and the force through the gorge, πσ y (1 + y/ρ). Any two radii, a
-/// plane, unequal angles. Its mean curvature is not constant, so it is no bridge at equilibrium: its force is no derivative
-/// of an energy. Under a volume it has rings far beyond the true rupture, which the rule (with the mean
-/// of the angles) cuts off; under a suction it ruptures by itself.
+/// plane, unequal angles. Its mean curvature is not constant, so it is no bridge at equilibrium: its force is no
+/// derivative of an energy. Under a volume it has rings far beyond the true rupture, which the rule (with the mean of
+/// the angles) cuts off; under a suction it ruptures by itself.
 /// \par Units   surface tension [N/m], angles [rad], force [N]
 /// \par Domain  meridians that bend inwards, with the gorge between the contact lines, ρ up to 1000 times the smaller
 ///              radius: not_covered beyond
+/// \par Accuracy  v = 1e-6 to 0.1, gaps up to 0.9 of the rupture gap: 7.2 / 4.7 % between spheres of any ratio, 8.8 /
+///                4.9 % on a plane; 35 % at rupture. Under suction, stable bridges of the truth table: 33 / 9 %.
+///                Rounding: 1e-16 (ρ/R)² of the volume
 /// \par Source  Haines 1925, J. Agric. Sci. 15, 529; Fisher 1926, ibid. 16, 492 (gorge); the ring of unequal radii and
 ///              angles, and its volume, derived here
 template <class Rupture = willett_rupture>
@@ -167,8 +170,7 @@ struct toroid {
 
   template <real T>
   [[nodiscard]] outcome<toroid_ring<T>, bridge_status> bridge(const edge<T>& e, given_volume<T> liquid) const noexcept {
-    if (admit(e) != bridge_status::ok || !(value_of(liquid.value) >= 0) ||
-        !(value_of(liquid.value) < infinity<T>)) {
+    if (admit(e) != bridge_status::ok || !(value_of(liquid.value) >= 0) || !(value_of(liquid.value) < infinity<T>)) {
       return none<T>(bridge_status::invalid_input);
     }
     if (!(value_of(liquid.value) > 0)) {
@@ -184,13 +186,11 @@ struct toroid {
     // the depth of a disc of liquid with an upright rim (Derjaguin), in terms of the rim's circle
     const T radius = detail::derjaguin_radius(e);
     const T guess = (e.gap + T(2) * detail::immersion(e.gap, liquid.value, radius)) / (s.cos1 + s.cos2);
-    return solve(e, s, guess, s.largest,
-                 [&](const circle<T>& c) { return volume_of(e, s, c) / liquid.value - T(1); });
+    return solve(e, s, guess, s.largest, [&](const circle<T>& c) { return volume_of(e, s, c) / liquid.value - T(1); });
   }
 
   template <real T>
-  [[nodiscard]] outcome<toroid_ring<T>, bridge_status> bridge(const edge<T>& e,
-                                                              given_suction<T> tied) const noexcept {
+  [[nodiscard]] outcome<toroid_ring<T>, bridge_status> bridge(const edge<T>& e, given_suction<T> tied) const noexcept {
     if (admit(e) != bridge_status::ok || !(value_of(tied.value) < infinity<T>) ||
         !(value_of(tied.value) > -infinity<T>)) {
       return none<T>(bridge_status::invalid_input);
@@ -256,8 +256,8 @@ struct toroid {
     s.least = T(2) * constant / (linear + sqrt(linear * linear - T(4) * s.b * s.b * constant));
     s.largest = T(1000) * (e.radius1 < e.radius2 ? e.radius1 : e.radius2);
     // the arc whose gorge has come to a contact line: the meridian is level there
-    const T reach = s.b < T(0) ? (s.a + e.radius1 * (T(1) - s.sin1)) / -s.b
-                               : (e.gap - s.a + e.radius2 * (T(1) - s.sin2)) / s.b;
+    const T reach =
+        s.b < T(0) ? (s.a + e.radius1 * (T(1) - s.sin1)) / -s.b : (e.gap - s.a + e.radius2 * (T(1) - s.sin2)) / s.b;
     if (reach < s.largest) {
       s.largest = reach;
     }
@@ -285,8 +285,9 @@ struct toroid {
   template <real T>
   [[nodiscard]] static T inside(const circle<T>& at, const T& s, const T& c) noexcept {
     using std::atan2;
-    return T(pi<T>) * at.arc * (at.height * at.height * s - at.height * at.arc * (atan2(s, c) + s * c) +
-                                at.arc * at.arc * (s - s * s * s / T(3)));
+    return T(pi<T>) * at.arc *
+           (at.height * at.height * s - at.height * at.arc * (atan2(s, c) + s * c) +
+            at.arc * at.arc * (s - s * s * s / T(3)));
   }
   /// The liquid on the side of a sphere.
   template <real T>
@@ -308,11 +309,11 @@ struct toroid {
   template <real T>
   [[nodiscard]] static T volume_of(const edge<T>& e, const shape<T>& s, const circle<T>& c) noexcept {
     return beside(c, first_filling(e, s, c), e.radius1, s.cos1, s.sin1) +
-           (e.with_plane() ? inside(c, s.cos2, s.sin2)
-                           : beside(c, second_filling(e, s, c), e.radius2, s.cos2, s.sin2));
+           (e.with_plane() ? inside(c, s.cos2, s.sin2) : beside(c, second_filling(e, s, c), e.radius2, s.cos2, s.sin2));
   }
 
-  /// The ring for which `excess` vanishes, growing with the arc: of the two rings of a volume or suction the larger one.
+  /// The ring for which `excess` vanishes, growing with the arc: of the two rings of a volume or suction the larger
+  /// one.
   template <real T, class Excess>
   [[nodiscard]] outcome<toroid_ring<T>, bridge_status> solve(const edge<T>& e, const shape<T>& s, const T& guess,
                                                              const T& widest, const Excess& excess) const noexcept {

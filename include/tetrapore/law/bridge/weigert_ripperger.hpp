@@ -9,6 +9,9 @@ namespace tetrapore::inline TETRAPORE_ABI {
 /// toroid at the contact line: πR²σ sin²β (1/r₁ − 1/r₂) + 2πRσ sin β sin(β + θ),
 /// r₁ = (2R (1 − cos β) + D) / (2 cos(β + θ)), r₂ = R sin β + r₁ (sin(β + θ) − 1). For equal spheres.
 /// \par Units   surface tension [N/m], angle [rad], result [N]
+/// \par Domain  equal spheres; 10° ≤ β ≤ 40°, D ≤ R/5, θ ≤ 50°; gaps from 0 on
+/// \par Accuracy  at contact 6.9 / 2.9 %; up to half the rupture gap 128 / 37 %, beyond 200 / 109 %: the volume grows
+///                with the gap by far more than the fit has it
 /// \par Source  Weigert & Ripperger 1999, Part. Part. Syst. Charact. 16, 238, Eqs. (5), (6), (15)-(17), (22). No
 ///              rupture of its own: that of Lian
 template <class Rupture = lian_rupture>
