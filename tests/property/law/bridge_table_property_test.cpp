@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tetrapore/law/bridge.hpp"
+#include "tetrapore/law/bridge/table.hpp"
 
 #include <doctest/doctest.h>
 
