@@ -222,7 +222,6 @@ law_report measure_exact(const std::vector<bridge_question>& questions) {
         row.per_condition = e.per_condition;
         row.derivative_error = slope;
         row.wrong = !(e.per_condition <= exact_accuracy) || !(slope <= stiffness_allowed(*truth));
-if(row.wrong) std::fprintf(stderr,"DBG %s e=%g pc=%g slope=%g allowed=%g\n",q.name.c_str(),e.largest,e.per_condition,slope,stiffness_allowed(*truth));
       }
     } else if (q.stable == 0) {
       ++traps;

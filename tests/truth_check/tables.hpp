@@ -29,5 +29,6 @@ inline bool has_all(const csv_table& t, std::initializer_list<const char*> colum
 /// One file measures the tables of one family of laws.
 std::vector<known_table> entry_tables();
 std::vector<known_table> bridge_tables();
+std::vector<known_table> lubrication_tables();
 
 }  // namespace truth_check
