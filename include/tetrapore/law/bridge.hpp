@@ -2,7 +2,8 @@
 #pragma once
 
 /// \file
-/// All bridge laws but the table, which is a header of its own: law/bridge/table.hpp.
+/// The exact bridge law and the closed forms. Headers of their own, so that this one stays small: law/bridge/table.hpp
+/// and law/bridge/toroid.hpp.
 
 #include "tetrapore/law/bridge/closed_form.hpp"
 #include "tetrapore/law/bridge/concept.hpp"
@@ -11,7 +12,6 @@
 #include "tetrapore/law/bridge/rabinovich.hpp"
 #include "tetrapore/law/bridge/rupture_fits.hpp"
 #include "tetrapore/law/bridge/soulie.hpp"
-#include "tetrapore/law/bridge/toroid.hpp"
 #include "tetrapore/law/bridge/weigert_ripperger.hpp"
 #include "tetrapore/law/bridge/willett.hpp"
 #include "tetrapore/law/bridge/young_laplace.hpp"
