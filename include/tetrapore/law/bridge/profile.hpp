@@ -4,7 +4,9 @@
 #include "tetrapore/law/bridge/gauss_rule.hpp"
 
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 /// \file
 /// The profile of a bridge, a piece of a Delaunay curve between two wetted surfaces, with all first derivatives.
@@ -58,32 +60,81 @@ struct contact_circle {
   }
 };
 
-/// sinh²(√z) for z > 0 and −sin²(√−z) for z < 0 at z × square[j].
+/// 1/√x in operations that compilers vectorise: the exponent halved in the bits, then Newton's method.
+template <std::floating_point T>
+[[nodiscard]] inline T inverse_root(const T& x) noexcept {
+  if constexpr (std::is_same_v<T, double> && std::numeric_limits<T>::is_iec559) {
+    double y = std::bit_cast<double>(0x5fe6eb50c7b537a9ULL - (std::bit_cast<std::uint64_t>(x) >> 1U));
+    const double half = 0.5 * x;
+    y *= 1.5 - half * y * y;
+    y *= 1.5 - half * y * y;
+    y *= 1.5 - half * y * y;
+    y *= 1.5 - half * y * y;
+    return y;
+  } else {
+    using std::sqrt;
+    return T(1) / sqrt(x);
+  }
+}
+
 template <std::floating_point T, std::size_t N>
-inline void squared_sines(const T& z, const std::array<T, N>& square, std::array<T, N>& result) noexcept {
-  constexpr int terms = std::numeric_limits<T>::digits > 53 ? 15 : 12;
-  constexpr auto coefficient = [] {
+[[nodiscard]] inline T sum_of(const std::array<T, N>& a) noexcept {
+  T even(0);
+  T odd(0);
+  for (std::size_t j = 0; j + 1 < N; j += 2) {
+    even += a[j];
+    odd += a[j + 1];
+  }
+  return N % 2 == 0 ? even + odd : even + odd + a[N - 1];
+}
+template <std::floating_point T, std::size_t N>
+[[nodiscard]] inline T sum_of(const std::array<T, N>& a, const std::array<T, N>& b) noexcept {
+  T even(0);
+  T odd(0);
+  for (std::size_t j = 0; j + 1 < N; j += 2) {
+    even += a[j] * b[j];
+    odd += a[j + 1] * b[j + 1];
+  }
+  return N % 2 == 0 ? even + odd : even + odd + a[N - 1] * b[N - 1];
+}
+
+/// Coefficients 4^n / 2 (2n)! of sinh²(√x), from n = 1.
+template <std::floating_point T>
+struct squared_sine_series {
+  static constexpr int terms = std::numeric_limits<T>::digits > 53 ? 15 : 12;
+  static constexpr auto coefficient = [] {
     std::array<T, static_cast<std::size_t>(terms)> c{};
-    long double term = 1;  // 4^n / 2 (2n)!
+    long double term = 1;
     for (int n = 2; n <= terms + 1; ++n) {
       c[static_cast<std::size_t>(n - 2)] = static_cast<T>(term);
       term *= 4.0L / static_cast<long double>((2 * n - 1) * (2 * n));
     }
     return c;
   }();
+  template <int n = 0>
+  [[nodiscard]] static constexpr T from(const T& x) noexcept {
+    if constexpr (n == terms - 1) {
+      return coefficient[static_cast<std::size_t>(n)];
+    } else {
+      return coefficient[static_cast<std::size_t>(n)] + x * from<n + 1>(x);
+    }
+  }
+};
+
+/// sinh²(√z) for z > 0 and −sin²(√−z) for z < 0 at z × square[j].
+template <std::floating_point T, std::size_t N>
+inline void squared_sines(const T& z, const std::array<T, N>& square, std::array<T, N>& result) noexcept {
   T scale = z * T(0.0625);
-  int doublings = 2;
+  int doublings = 0;
   while (scale > T(1) && doublings < 16) {
     scale *= T(0.25);
     ++doublings;
   }
   for (std::size_t j = 0; j < N; ++j) {
     const T x = scale * square[j];
-    T sum = coefficient[static_cast<std::size_t>(terms - 1)];
-    for (int n = terms - 2; n >= 0; --n) {
-      sum = sum * x + coefficient[static_cast<std::size_t>(n)];
-    }
-    result[j] = sum * x;
+    const T quarter = x * squared_sine_series<T>::from(x);
+    const T half = T(4) * quarter * (T(1) + quarter);
+    result[j] = T(4) * half * (T(1) + half);
   }
   for (int d = 0; d < doublings; ++d) {
     for (std::size_t j = 0; j < N; ++j) {
@@ -152,13 +203,13 @@ inline constexpr int second_match_row = 3;
 
 /// Of the two sides of a bridge seen from its neck, one: x, the distance to the circle, and the volume.
 template <int N, std::floating_point T>
-[[nodiscard]] inline bool add_side(sample<T>& s, const wetted_surface<T>& on, const T& a, const T& p, const T& root_p,
-                                   const T& r0, const T& w, int side) noexcept {
+[[nodiscard]] inline bool add_side(sample<T>& s, const wetted_surface<T>& on, const T& a, const T& p, const T& per_p,
+                                   const T& root_p, const T& inverse, const T& w, int side) noexcept {
   using std::asinh;
   using std::atan;
+  using std::log;
   using std::sqrt;
   const contact_circle<T> at(on, w);
-  const T inverse = T(1) / r0;
   const T rho = at.radius * inverse;
   const T g = at.sine;
   const T c = at.cosine;
@@ -173,7 +224,8 @@ template <int N, std::floating_point T>
   const T t_rho = (c - t * a * g) * per_base;
   const T t_beta = -rho * (g + t * a * c) * per_base;
   const T square = T(1) + a * a * t * t;
-  const T cosine = T(1) / sqrt(square);
+  const T secant = sqrt(square);
+  const T cosine = T(1) / secant;
   const T sine = t * cosine;
   const auto& rule = gauss<T, N>;
   std::array<T, static_cast<std::size_t>(N)> q;
@@ -194,58 +246,70 @@ template <int N, std::floating_point T>
   if (hyperbolic) {
     // r = r0 cosh m
     const T y = root_p * sine;
-    const T m = asinh(y);
-    const T per_cosh = T(1) / sqrt(T(1) + ends);
+    const T cosh_m = sqrt(T(1) + ends);
+    const T m = y > T(0.5) ? log(y + cosh_m) : asinh(y);
+    const T per_cosh = T(1) / cosh_m;
+    const T per_root = root_p * per_p;
     const T cube = cosine * cosine * cosine;
     m_t = root_p * cube * per_cosh;
-    m_a = (sine / root_p - root_p * a * t * t * t * cube) * per_cosh;
-    const T ratio = a * a / p;
-    const T half_ratio_a = a * (T(1) + a) / (p * p);
+    m_a = (sine * per_root - root_p * a * t * t * t * cube) * per_cosh;
+    const T ratio = a * a * per_p;
+    const T half_ratio_a = a * (T(1) + a) * per_p * per_p;
     squared_sines(m * m, rule.square, q);
+    std::array<T, static_cast<std::size_t>(N)> value;
+    std::array<T, static_cast<std::size_t>(N)> slope;
     for (std::size_t j = 0; j < static_cast<std::size_t>(N); ++j) {
-      const T inner = T(1) / (T(1) - ratio * q[j]);
-      const T f = rule.weight[j] * sqrt(inner);
-      const T value = (T(1) - a * q[j]) * f;
-      const T slope = q[j] * (half_ratio_a * value * inner - f);
-      x0 += value;
-      x1 += slope;
-      v0 += q[j] * value;
-      v1 += q[j] * slope;
+      const T inner = inverse_root(T(1) - ratio * q[j]);
+      const T f = rule.weight[j] * inner;
+      value[j] = (T(1) - a * q[j]) * f;
+      slope[j] = q[j] * (half_ratio_a * value[j] * (inner * inner) - f);
     }
-    const T front = m / root_p;
+    x0 = sum_of(value);
+    x1 = sum_of(slope);
+    v0 = sum_of(value, q);
+    v1 = sum_of(slope, q);
+    const T front = m * per_root;
     x = front * x0;
-    x_a = front * (x1 - x0 / p);
+    x_a = front * (x1 - x0 * per_p);
     v = pi<T> * front * (x0 + v0);
-    v_a = pi<T> * front * (x1 + v1 - (x0 + v0) / p);
-    x_m = (T(1) - a * ends) / (root_p * cosine);
+    v_a = pi<T> * front * (x1 + v1 - (x0 + v0) * per_p);
+    x_m = (T(1) - a * ends) * per_root * secant;
     v_m = pi<T> * (T(1) + ends) * x_m;
   } else {
     // the angle m = ks, stretched as m = s sinh u where the branch points ± i s of r would slow the rule down
     const T m = atan(a * t);
-    m_t = a / square;
-    m_a = t / square;
+    m_t = a * cosine * cosine;
+    m_a = t * cosine * cosine;
     const T per_a = T(1) / a;
     const T ratio = -p * per_a * per_a;
-    const T rate = T(-2) * (T(1) + a) / (a * p);
+    const T rate = T(-2) * (T(1) + a) * per_a * per_p;
     std::array<T, static_cast<std::size_t>(N)> weight = rule.weight;
     if (a < T(6) && std::abs(a * sine) > T(0.7)) {
       stretched_sines<N>(m, asinh(std::abs(a) / root_p), q, weight);
     } else {
       squared_sines(-m * m, rule.square, q);
     }
+    std::array<T, static_cast<std::size_t>(N)> value;
+    std::array<T, static_cast<std::size_t>(N)> slope;
+    std::array<T, static_cast<std::size_t>(N)> slope_of_volume;
     for (std::size_t j = 0; j < static_cast<std::size_t>(N); ++j) {
       const T e = ratio * q[j];  // (r/r0)² − 1
       const T e_a = rate * e;
       const T size = T(1) + e;
-      const T f = weight[j] / sqrt(size);
+      const T inner = inverse_root(size);
+      const T f = weight[j] * inner;
       const T n = T(1) - a * e;
       const T n_a = -e - a * e_a;
       const T half = T(0.5) * n * e_a;
-      x0 += n * f;
-      x1 += (n_a - half / size) * f;
-      v0 += n * f * size;
-      v1 += (n_a * size + half) * f;
+      q[j] = size;
+      value[j] = n * f;
+      slope[j] = (n_a - half * (inner * inner)) * f;
+      slope_of_volume[j] = (n_a * size + half) * f;
     }
+    x0 = sum_of(value);
+    x1 = sum_of(slope);
+    v0 = sum_of(value, q);
+    v1 = sum_of(slope_of_volume);
     const T front = m * per_a;
     x = front * x0;
     x_a = front * (x1 - x0 * per_a);
@@ -303,7 +367,9 @@ template <int N, bool Equal, std::floating_point T>
   s.lambda_by[1] = p;
   s.lambda_by[2] = s.lambda_by[3] = T(0);
   const T root_p = sqrt(p);
-  s.sound = add_side<N>(s, pair.side[0], a, p, root_p, u.extent, u.w[0], 0);
+  const T per_p = T(1) / p;
+  const T inverse = T(1) / u.extent;
+  s.sound = add_side<N>(s, pair.side[0], a, p, per_p, root_p, inverse, u.w[0], 0);
   if constexpr (Equal) {
     s.gap *= T(2);
     s.volume *= T(2);
@@ -315,7 +381,7 @@ template <int N, bool Equal, std::floating_point T>
     s.turn[1] = s.turn[0];
     s.cosine[1] = s.cosine[0];
   } else {
-    s.sound = s.sound && add_side<N>(s, pair.side[1], a, p, root_p, u.extent, u.w[1], 1);
+    s.sound = s.sound && add_side<N>(s, pair.side[1], a, p, per_p, root_p, inverse, u.w[1], 1);
   }
   return s;
 }

@@ -405,7 +405,10 @@ template <bool Equal, std::floating_point T>
   // span (2k + 1/neck) = Σ cos: the larger root, from above, by secants in the square of the circle
   const T k = d.value;
   const T wetting = pair.side[0].cosine + pair.side[1].cosine;
-  const T widest = T(0.95) / larger(pair.side[0].curvature, pair.side[1].curvature);
+  T widest = T(0.95) * pair.side[0].cosine / pair.side[0].curvature;
+  if (widest * pair.side[1].curvature > T(0.95) * pair.side[1].cosine) {
+    widest = T(0.95) * pair.side[1].cosine / pair.side[1].curvature;
+  }
   T x = widest * widest;
   if (k > T(0)) {
     x = smaller(x, larger(T(2) * (T(0.5) * wetting / k - gap), T(1e-2) * wetting / k) / curvature);
@@ -414,10 +417,14 @@ template <bool Equal, std::floating_point T>
   T excess = t.span * (T(2) * k + T(1) / t.neck) - t.cosines;
   T slope = T(0.5) * curvature * (T(2) * k + T(1) / t.neck);
   for (int i = 0; i < 6 && excess > T(0.02) * t.cosines && slope > T(0); ++i) {
-    const T next = larger(x - excess / slope, T(0.2) * x);
-    t = bridge_type(pair, gap, sqrt(next));
-    const T now = t.span * (T(2) * k + T(1) / t.neck) - t.cosines;
+    const T next = larger(x - excess / slope, T(0.5) * x);
+    const bridge_type trial(pair, gap, sqrt(next));
+    const T now = trial.span * (T(2) * k + T(1) / trial.neck) - trial.cosines;
+    if (!(now < excess)) {
+      break;  // beyond the least excess: the arc of a circle has no root, the profile may have one near
+    }
     slope = (excess - now) / (x - next);
+    t = trial;
     x = next;
     excess = now;
   }

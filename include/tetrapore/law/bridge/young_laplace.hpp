@@ -3,6 +3,7 @@
 
 #include "tetrapore/core/required.hpp"
 #include "tetrapore/law/bridge/march.hpp"
+#include "tetrapore/law/bridge/memory.hpp"
 
 namespace tetrapore::inline TETRAPORE_ABI {
 
@@ -20,17 +21,10 @@ struct young_laplace {
   double contact_angle1 = 0;
   double contact_angle2 = 0;
 
-  /// What a pair remembers from its last step. A new one starts cold; so does one whose pair has changed.
+  /// What a pair remembers from its last step. A new one starts cold; so does one whose pair or law has changed.
   template <real T>
   struct warm_state {
-    using value_type = std::conditional_t<std::is_same_v<T, float>, double, T>;
-    detail::surface_pair<value_type> pair{};
-    detail::demand<value_type> met{};
-    detail::profile<value_type> u{};
-    value_type scale{};
-    value_type by_gap[4]{};
-    value_type by_value[4]{};
-    bool warm = false;
+    detail::bridge_memory<T, std::conditional_t<std::is_same_v<T, float>, double, T>> last{};
   };
 
   template <std::floating_point T>
@@ -174,17 +168,29 @@ struct young_laplace {
                                                           warm_state<T>& w) const noexcept {
     using W = work<T>;
     using std::isfinite;
-    if (!in_domain(e) || !isfinite(value) || (by == bridge_control::volume && value < T(0))) {
+    const bool known = Warm && w.last.knows(e, surface_tension.get(), contact_angle1, contact_angle2, by);
+    if ((!known && !in_domain(e)) || !isfinite(value) || !isfinite(e.gap) ||
+        !(e.gap > -detail::smaller(e.radius1, e.radius2)) || (by == bridge_control::volume && value < T(0))) {
       return without<T>(bridge_status::invalid_input);
     }
     if (by == bridge_control::volume && value == T(0)) {
       return without<T>(bridge_status::no_liquid);
     }
-    const auto pair = pair_of(e);
-    const W asked = by == bridge_control::volume ? static_cast<W>(value)
-                                                 : static_cast<W>(value) / (W(2) * static_cast<W>(surface_tension.get()));
+    const W asked = by == bridge_control::volume ? static_cast<W>(value) : half_mean_curvature(static_cast<W>(value));
     const detail::demand<W> d{static_cast<W>(e.gap), asked, by};
-    return pair.equal ? solve_pair<T, Warm, true>(pair, d, w) : solve_pair<T, Warm, false>(pair, d, w);
+    if (known) {
+      const detail::surface_pair<W>& pair = w.last.pair;
+      return pair.equal ? solve_pair<T, Warm, true>(e, pair, d, true, w)
+                        : solve_pair<T, Warm, false>(e, pair, d, true, w);
+    }
+    const auto pair = pair_of(e);
+    return pair.equal ? solve_pair<T, Warm, true>(e, pair, d, false, w)
+                      : solve_pair<T, Warm, false>(e, pair, d, false, w);
+  }
+
+  template <class W>
+  [[nodiscard]] W half_mean_curvature(const W& suction) const noexcept {
+    return suction / (W(2) * static_cast<W>(surface_tension.get()));
   }
 
   [[nodiscard]] static bool holds(const detail::stability_index& i, bridge_control by) noexcept {
@@ -195,14 +201,17 @@ struct young_laplace {
   static constexpr int fine = 2 * Nodes;
 
   template <class T, bool Warm, bool Equal, class W = work<T>>
-  [[nodiscard]] outcome<meniscus<T>, bridge_status> solve_pair(const detail::surface_pair<W>& pair,
-                                                               const detail::demand<W>& d,
+  [[nodiscard]] outcome<meniscus<T>, bridge_status> solve_pair(const edge<T>& e, const detail::surface_pair<W>& pair,
+                                                               const detail::demand<W>& d, bool known,
                                                                warm_state<T>& w) const noexcept {
     detail::found<W> f;
     f.converged = false;
     if constexpr (Warm) {
-      f = from_warm<T, Equal>(pair, d, w);
+      if (known) {
+        f = from_memory<T, Equal>(d, w);
+      }
     }
+    const bool continued = f.converged;
     if (!f.converged) {
       f = detail::approach<Nodes, Equal>(pair, d);
       if (f.converged) {
@@ -213,24 +222,19 @@ struct young_laplace {
       const bridge_status why = travel_to<Equal>(pair, d, f);
       if (why != bridge_status::ok) {
         if constexpr (Warm) {
-          w.warm = false;
+          w.last.warm = false;
         }
         return without<T>(why);
       }
     }
+    const auto answer = meniscus_of<T>(pair, f.u, f.lambda, d.by == bridge_control::volume ? d.value : f.volume);
     if constexpr (Warm) {
-      w.pair = pair;
-      w.met = d;
-      w.u = f.u;
-      w.scale = f.at.scale;
-      for (int i = 0; i < 4; ++i) {
-        w.by_gap[i] = f.by_gap[i];
-        w.by_value[i] = f.by_value[i];
+      if (!known) {
+        w.last.meet(e, surface_tension.get(), contact_angle1, contact_angle2, pair);
       }
-      w.warm = true;
+      w.last.remember(d, f, continued);
     }
-    return {meniscus_of<T>(pair, f.u, f.lambda, d.by == bridge_control::volume ? d.value : f.volume),
-            bridge_status::ok};
+    return {answer, bridge_status::ok};
   }
 
   /// The last digits near a fold, where errors of the quadrature reach the force enlarged.
@@ -275,39 +279,18 @@ struct young_laplace {
   }
 
   template <class T, bool Equal, class W = work<T>>
-  [[nodiscard]] detail::found<W> from_warm(const detail::surface_pair<W>& pair, const detail::demand<W>& d,
-                                           const warm_state<T>& w) const noexcept {
+  [[nodiscard]] static detail::found<W> from_memory(const detail::demand<W>& d, const warm_state<T>& w) noexcept {
     detail::found<W> f;
     f.converged = false;
-    const auto same = [&](std::size_t i) {
-      const auto& a = pair.side[i];
-      const auto& b = w.pair.side[i];
-      return a.curvature == b.curvature && a.cosine == b.cosine && a.sine == b.sine;
-    };
-    if (!w.warm || w.met.by != d.by || w.pair.equal != pair.equal || !same(0) || !same(1)) {
+    detail::profile<W> u;
+    if (!w.last.predict(d, u)) {
       return f;
     }
-    const W inverse = W(1) / w.scale;
-    const W gap = (d.gap - w.met.gap) * inverse;
-    const W value = (d.value - w.met.value) *
-                    (d.by == bridge_control::volume ? inverse * inverse * inverse : w.scale);
-    W step[4];
-    W size(0);
-    for (int i = 0; i < 4; ++i) {
-      step[i] = gap * w.by_gap[i] + value * w.by_value[i];
-      size = detail::larger(size, std::abs(step[i]) / (i == 0 ? W(1) + std::abs(w.u.k) * w.scale : W(1)));
+    f = detail::newton<Nodes, Equal>(w.last.pair, d, u, 6);
+    f.converged = f.converged && holds(detail::index_of<Equal>(w.last.pair, f, d.by), d.by);
+    if (f.converged) {
+      refine<Equal>(w.last.pair, d, f);
     }
-    if (!(size < W(0.1))) {
-      return f;
-    }
-    detail::profile<W> u = w.u;
-    detail::move<Equal>(u, w.scale, step, W(1));
-    f = detail::newton<Nodes, Equal>(pair, d, u, 6);
-    if (!f.converged || !holds(detail::index_of<Equal>(pair, f, d.by), d.by)) {
-      f.converged = false;
-      return f;
-    }
-    refine<Equal>(pair, d, f);
     return f;
   }
 
@@ -326,8 +309,7 @@ struct young_laplace {
       return {{T(0), bridge_end::fold, without<T>(bridge_status::no_liquid).value}, bridge_status::no_liquid};
     }
     const auto pair = pair_of(e);
-    const W asked = by == bridge_control::volume ? static_cast<W>(value)
-                                                 : static_cast<W>(value) / (W(2) * static_cast<W>(surface_tension.get()));
+    const W asked = by == bridge_control::volume ? static_cast<W>(value) : half_mean_curvature(static_cast<W>(value));
     const detail::demand<W> d{W(0), asked, by};
     return pair.equal ? widest_of<T, true>(pair, d) : widest_of<T, false>(pair, d);
   }
