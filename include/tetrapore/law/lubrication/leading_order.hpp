@@ -35,14 +35,14 @@ struct leading_order {
     if (first != pair_status::ok) {
       return detail::no_resistance<T>(first);
     }
-    const T curvature1 = T(1) / e.radius1;
-    const T curvature2 = T(1) / e.radius2;
-    const T star = T(1) / (curvature1 + curvature2);
-    const T x1 = star * curvature2;
-    const T x2 = star * curvature1;
+    const T ratio = e.radius1 / e.radius2;
+    const T x2 = T(1) / (T(1) + ratio);
+    const T x1 = ratio * x2;
+    const T star = e.radius1 * x2;
+    const T y = T(4) * star / e.gap;
     const T scale = detail::constant<T>(pi<long double>) * T(static_cast<underlying_t<T>>(viscosity.get()));
-    const T shearing = scale * star * logarithm(T(4) * star / e.gap) * T(0.8);
-    const T squeeze = T(6) * scale * star * (star / e.gap);
+    const T shearing = scale * star * logarithm(y) * T(0.8);
+    const T squeeze = T(1.5) * scale * star * y;
     return detail::resistance_of(e, squeeze, shearing * (T(4) * (x1 * x1 + x2 * x2) + T(2) * x1 * x2),
                                  T(3) * shearing * star * (x2 - x1), T(6) * shearing * star * star, T(0));
   }
@@ -58,7 +58,8 @@ struct leading_order {
       }
       return y * sum;
     }
-    return (T(1) + T(1) / y) * log(T(1) + y) - T(1);
+    const T l = log(T(1) + y);
+    return l + l / y - T(1);
   }
 };
 static_assert(lubrication_law<leading_order, double>);

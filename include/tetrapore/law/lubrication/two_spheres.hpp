@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "tetrapore/core/required.hpp"
+#include "tetrapore/law/lubrication/concept.hpp"
+#include "tetrapore/law/lubrication/regular_part.hpp"
+
+namespace tetrapore::inline TETRAPORE_ABI {
+
+/// Two spheres alone in a liquid at rest, on which no other force or torque acts: push them apart, slide, roll or twist
+/// them with opposite forces and balanced torques, and this is what they resist. It is the resistance of the whole
+/// two-sphere problem with the rigid motions left free, so it is zero for those, singular as leading_order at contact,
+/// and has all that is bounded there as well, down to the drag of each sphere.
+/// \par Units   viscosity [Pa s]; the resistance as in pair_resistance
+/// \par Domain  radius ratios 1 to 0.1, no plane; 0 < gap ≤ 2a* = 2 a1 a2/(a1 + a2) (one radius between equal spheres,
+///              two small radii at 0.1); beyond: not_covered, too_far
+/// \par Accuracy  against the exact solution, over the whole domain: squeeze 3e-6, shear 9e-5, coupling 7e-5 (of √(shear
+///                × roll)), roll 9e-5, twist 4e-5. Rounding 1e-13; in float 1e-4
+/// \par Source  Jeffrey & Onishi 1984, J. Fluid Mech. 139, 261; elimination of the rigid motions and fit: own
+struct two_spheres {
+  required<double> viscosity;
+
+  template <real T>
+  [[nodiscard]] outcome<pair_resistance<T>, pair_status> resistance(const edge<T>& e) const noexcept {
+    using std::log;
+    const pair_status first = detail::admit_pair(e, viscosity);
+    if (first != pair_status::ok) {
+      return detail::no_resistance<T>(first);
+    }
+    const T margin = T(1 + 8 * epsilon<T>);
+    if (!(e.radius1 < T(10) * margin * e.radius2) || !(e.radius2 < T(10) * margin * e.radius1)) {
+      return detail::no_resistance<T>(pair_status::not_covered);
+    }
+    const T per_sum = T(1) / (e.radius1 + e.radius2);
+    const T star = e.radius1 * e.radius2 * per_sum;
+    if (!(e.gap < T(2) * margin * star)) {
+      return detail::no_resistance<T>(pair_status::too_far);
+    }
+    const T beta = (e.radius1 - e.radius2) * per_sum;
+    const T square = beta * beta;
+    const T bulk = T(1) + T(3) * square;
+    const T soft = T(1) + T(0.5) * square;
+    const T inverse = T(1) / (bulk * soft);
+    const T y = T(4) * star / e.gap;
+    const T p = T(1) / (T(1) + y);
+    const T logarithm = log(T(1) + y);
+    const auto rest = detail::regular_part(detail::regular_of_spheres_as<underlying_t<T>>, T(4) * square * bulk * inverse - T(1), p, logarithm);
+    const T scale = detail::constant<T>(pi<long double>) * T(static_cast<underlying_t<T>>(viscosity.get())) * star;
+    const auto tenths = [](double x) { return detail::constant<T>(static_cast<long double>(x) / 10); };
+    return detail::resistance_of(
+        e, T(6) * scale * (y * T(0.25) + (tenths(4.5) - T(0.25) * square) * logarithm + rest[0]),
+        scale * ((T(2) + tenths(12) * square) * logarithm + rest[1]),
+        scale * star * beta * (rest[2] - tenths(24) * logarithm), scale * star * star * (tenths(48) * logarithm + rest[3]),
+        scale * star * star * rest[4] * (soft * soft * inverse * inverse));
+  }
+};
+static_assert(lubrication_law<two_spheres, double>);
+
+}  // namespace tetrapore::inline TETRAPORE_ABI
