@@ -9,7 +9,7 @@ namespace tetrapore::inline TETRAPORE_ABI {
 /// spheres that the liquid wets fully. Soulié's form is this one with a contact angle and unequal radii.
 /// \par Units   surface tension [N/m], angle [rad], result [N]
 /// \par Domain  equal spheres, θ = 0; 1e-4 ≤ V/R³ ≤ 0.1; gaps from 0 on
-/// \par Accuracy  12 / 5.7 %; v = 1e-4 to 1e-3: 42 / 8 %, within 7 % of the force at contact
+/// \par Accuracy  12 / 5.7 %; v = 1e-4 to 1e-3: 42 / 10 %, within 7 % of the force at contact
 /// \par Source  Mikami, Kamiya & Horio 1998, Chem. Eng. Sci. 53, 1927, with its rupture
 template <class Rupture = mikami_rupture>
 struct mikami {

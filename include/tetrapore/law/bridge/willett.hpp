@@ -9,7 +9,7 @@ namespace tetrapore::inline TETRAPORE_ABI {
 /// polynomial in ln(V/R³) and θ. Unequal radii by the radius of Derjaguin, as in the paper.
 /// \par Units   surface tension [N/m], angle [rad], result [N]
 /// \par Domain  two spheres; 1e-3 ≤ V/R³ ≤ 0.1, R of Derjaguin; θ ≤ 50°; gaps from 0 on
-/// \par Accuracy  equal spheres 8.5 / 1.8 % (θ = 0: 4.9 / 0.9 %), radii 1 : 2 7.2 / 1.8 %, 1 : 10 12 / 2.6 %; 35 % just
+/// \par Accuracy  equal spheres 8.5 / 2.1 % (θ = 0: 4.9 / 1.3 %), radii 1 : 2 7.2 / 2.0 %, 1 : 10 12 / 3.0 %; 35 % just
 ///                before rupture
 /// \par Source  Willett et al. 2000, Langmuir 16, 9396, appendix; rupture Eq. (15)
 template <class Rupture = willett_rupture>
