@@ -282,6 +282,7 @@ template <int N, bool Equal, std::floating_point T>
     // between `from`, which lies before, and `next`: the fold first, then the target if it lies before the fold
     T low(0);
     T high = h;
+    bool lost = false;
     waypoint<T> at_low = from;
     waypoint<T> at_high = next;
     if (folded) {
@@ -291,7 +292,8 @@ template <int N, bool Equal, std::floating_point T>
         const T tau = i % 3 == 2 ? T(0.5) * (low + high) : low + (high - low) * a / (a - b);
         const waypoint<T> mid = along_path.template advance<N>(from, tau, &iterations);
         if (!mid.sound) {
-          return trip;
+          lost = true;
+          break;
         }
         if (sign * mid.slope > T(0)) {
           low = tau;
@@ -305,6 +307,13 @@ template <int N, bool Equal, std::floating_point T>
             least * (high - low) < T(0.1) * std::numeric_limits<T>::epsilon() * std::abs(mid.reach)) {
           break;
         }
+      }
+      if (lost) {
+        h *= T(0.4);
+        if (h < T(1e-7)) {
+          return trip;
+        }
+        continue;
       }
       const waypoint<T>& top = sign * (at_high.reach - at_low.reach) > T(0) ? at_high : at_low;
       note_slide<N>(along_path, from, at_low, low, trip);
@@ -383,7 +392,30 @@ template <int N, bool Equal, std::floating_point T>
   if (!f.converged) {
     return trip;
   }
+  // along the gap first where the surfaces overlap: more suctions have a bridge there than at contact
   profile<T> u = f.u;
+  const bool overlap = gap_limit < T(0);
+  const auto move_gap = [&](journey<T>& to) {
+    const path<Equal, T> opening(pair, at_contact, along::gap);
+    const int sense = overlap ? -1 : 1;
+    to = follow<N>(opening, opening.template begin<N>(u, sense), gap_limit, sense);
+    return to.how == arrival::at_target;
+  };
+  const auto settle = [&](const profile<T>& near) {
+    f = newton<N, Equal>(pair, at_contact, near, 12);
+    u = f.u;
+    return f.converged;
+  };
+  if (overlap && at_contact.value != d.value) {
+    if (!move_gap(trip)) {
+      return trip;
+    }
+    at_contact.gap = gap_limit;
+    trip.how = arrival::lost;
+    if (!settle(trip.end.u)) {
+      return trip;
+    }
+  }
   if (at_contact.value != d.value) {
     const path<Equal, T> filling(pair, at_contact, along::value);
     const int sense = by_volume ? 1 : -1;
@@ -393,15 +425,17 @@ template <int N, bool Equal, std::floating_point T>
       return trip;
     }
     at_contact.value = d.value;
-    f = newton<N, Equal>(pair, at_contact, filled.end.u, 12);
-    if (!f.converged) {
+    if (!settle(filled.end.u)) {
       return trip;
     }
-    u = f.u;
   }
-  const path<Equal, T> opening(pair, at_contact, along::gap);
-  const int sense = gap_limit < T(0) ? -1 : 1;
-  return follow<N>(opening, opening.template begin<N>(u, sense), gap_limit, sense);
+  if (at_contact.gap == gap_limit) {
+    trip.end.u = u;
+    trip.how = arrival::at_target;
+    return trip;
+  }
+  static_cast<void>(move_gap(trip));
+  return trip;
 }
 
 }  // namespace detail

@@ -238,7 +238,7 @@ template <int N, std::floating_point T>
   T m_t;
   T m_a;
   const T ends = p * sine * sine;  // (r/r0)² − 1 at the circle
-  const bool hyperbolic = a < T(2) && std::abs(a * sine) < T(0.8);
+  const bool hyperbolic = a < T(2) && std::abs(a * sine) < T(0.55);
   T x0(0);
   T x1(0);
   T v0(0);
@@ -284,7 +284,7 @@ template <int N, std::floating_point T>
     const T ratio = -p * per_a * per_a;
     const T rate = T(-2) * (T(1) + a) * per_a * per_p;
     std::array<T, static_cast<std::size_t>(N)> weight = rule.weight;
-    if (a < T(6) && std::abs(a * sine) > T(0.7)) {
+    if (a < T(6) && std::abs(a * sine) > T(0.5)) {
       stretched_sines<N>(m, asinh(std::abs(a) / root_p), q, weight);
     } else {
       squared_sines(-m * m, rule.square, q);
@@ -570,7 +570,7 @@ template <int N, std::floating_point T>
     const T t = rho * at.cosine / (T(1) + a + a * rho * at.sine);
     const T sine = t / sqrt(T(1) + a * a * t * t);
     T sum(0);
-    if (a < T(2) && std::abs(a * sine) < T(0.8)) {
+    if (a < T(2) && std::abs(a * sine) < T(0.55)) {
       const T m = asinh(root_p * sine);
       squared_sines(m * m, rule.square, q);
       for (std::size_t j = 0; j < q.size(); ++j) {

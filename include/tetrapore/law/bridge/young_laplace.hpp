@@ -275,7 +275,7 @@ struct young_laplace {
     for (int i = 0; i < detail::unknowns<Equal>; ++i) {
       lambda_gap += f.at.lambda_by[i] * f.by_gap[i];
     }
-    return std::abs(lambda_gap) * std::abs(f.at.gap) > W(3) * std::abs(f.at.lambda);
+    return std::abs(lambda_gap) * std::abs(f.at.gap) > W(10) * std::abs(f.at.lambda);
   }
 
   template <class T, bool Equal, class W = work<T>>
