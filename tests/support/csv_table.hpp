@@ -14,7 +14,7 @@
 
 class csv_table {
  public:
-  explicit csv_table(const std::filesystem::path& path) {
+  explicit csv_table(const std::filesystem::path& path) : path_(path) {
     std::ifstream in(path);
     if (!in) {
       throw std::runtime_error("cannot open " + path.string());
@@ -49,6 +49,7 @@ class csv_table {
     }
   }
 
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   [[nodiscard]] std::size_t size() const { return rows_.size(); }
   [[nodiscard]] bool has(const std::string& column) const { return column_.count(column) != 0; }
   [[nodiscard]] const std::string& text(std::size_t row, const std::string& column) const {
@@ -63,6 +64,7 @@ class csv_table {
   }
 
  private:
+  std::filesystem::path path_;
   std::map<std::string, std::size_t> column_;
   std::vector<std::vector<std::string>> rows_;
 };

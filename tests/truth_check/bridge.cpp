@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Bridges against exact ones. A stable row must be answered by itself: force, areas, and the one of volume and suction
-// that was not given, to max(stated_accuracy, 16 κ), κ = 2⁻⁵³ Σ |x ∂y/∂x| / |y| over the gap and what was given, from the
-// row's own stiffnesses: what the rounding of the request alone does. An unstable row is a trap: its request must get
+// that was not given, to max(stated_accuracy, 16 κ), κ = 2⁻⁵³ Σ |x ∂y/∂x| / |y| over the gap and what was given: what the
+// rounding of the request alone does to that result. κ of the first two is the row's own; the table has no slopes of
+// areas, so theirs come from the law in long double. An unstable row is a trap: its request must get
 // the stable bridge of the same request if there is one, else a status, and never the row's own numbers.
 #include "tetrapore/law/bridge.hpp"
+#include "tetrapore/law/bridge/table.hpp"
+#include "tetrapore/law/bridge/toroid.hpp"
 #include "tetrapore/law/bridge/young_laplace.hpp"
 #include "truth_check/tables.hpp"
 
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <map>
+#include <memory>
 #include <type_traits>
 #include <utility>
 
@@ -83,54 +88,61 @@ auto with_given(const bridge_question& q, const F& f) {
   return q.by_volume ? f(given_volume<double>{q.volume}) : f(given_suction<double>{q.suction});
 }
 
-/// How far the rounding of the gap and of what is given may move the main results, relatively.
-struct bridge_conditions {
-  double force;
-  double other;  ///< the one of volume and suction that is not given
-  double areas;  ///< the table has no slopes of areas: the better conditioned of the other two
-
-  explicit bridge_conditions(const bridge_question& q) {
-    const auto& [f_v, f_p, v_p, p_v, v_by_p] = q.stiffness;
-    const double gap = q.shape.gap;
-    const double by_given = q.by_volume ? -p_v : v_p;  // dF by V, or by p
-    const double slope = q.by_volume ? f_v : f_p;
-    force = rounding * (std::abs(gap * slope) + std::abs(q.given() * by_given)) / std::abs(q.force);
-    other = q.by_volume ? rounding * (std::abs(gap * p_v) + std::abs(q.volume / v_by_p)) / std::abs(q.suction)
-                        : rounding * (std::abs(gap * v_p) + std::abs(q.suction * v_by_p)) / std::abs(q.volume);
-    areas = std::min(force, other);
+/// How far the rounding of the gap and of what is given may move the main results, relatively: force, the one of volume
+/// and suction that is not given, areas.
+std::array<double, 5> conditions_of(const young_laplace<>& law, const bridge_question& q) {
+  const auto& [f_v, f_p, v_p, p_v, v_by_p] = q.stiffness;
+  const double gap = q.shape.gap;
+  const double by_given = q.by_volume ? -p_v : v_p;  // dF by V, or by p
+  const double slope = q.by_volume ? f_v : f_p;
+  std::array<double, 5> kappa{};
+  kappa[0] = rounding * (std::abs(gap * slope) + std::abs(q.given() * by_given)) / std::abs(q.force);
+  kappa[1] = q.by_volume ? rounding * (std::abs(gap * p_v) + std::abs(q.volume / v_by_p)) / std::abs(q.suction)
+                         : rounding * (std::abs(gap * v_p) + std::abs(q.suction * v_by_p)) / std::abs(q.volume);
+  const long double step = 1e-13L;  // far less than what is left before the fold
+  const auto areas_at = [&](long double gap_factor, long double given_factor) {
+    const edge<long double> e{q.shape.radius1, q.shape.radius2, static_cast<long double>(gap) * gap_factor, {1, 0, 0}};
+    const auto given = static_cast<long double>(q.given()) * given_factor;
+    const auto m = q.by_volume ? law.bridge(e, given_volume<long double>{given}).value
+                               : law.bridge(e, given_suction<long double>{given}).value;
+    const auto a = law.areas(e, m);
+    return std::array<long double, 3>{a.liquid_gas, a.wetted1, a.wetted2};
+  };
+  const auto wide = areas_at(1 + step, 1);
+  const auto narrow = areas_at(1 - step, 1);
+  const auto more = areas_at(1, 1 + step);
+  const auto less = areas_at(1, 1 - step);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const long double moved = std::abs(wide[k] - narrow[k]) + std::abs(more[k] - less[k]);
+    kappa[2 + k] = rounding * static_cast<double>(moved / (2 * step)) / q.areas[k];
   }
+  return kappa;
+}
+
+/// The errors of an answer against a row.
+struct bridge_errors {
+  double largest = 0;        ///< relative, as it stands
+  double per_condition = 0;  ///< scaled so that the stated accuracy is what conditioning allows
+  bool above_force = false;  ///< beyond what the conditioning of the force allows
 };
 
-/// The errors of an answer against a row: relative, and over what conditioning allows. A result that is 0 has no
-/// relative error; its absolute one is held against the rounding of the request.
-class bridge_errors {
- public:
-  void add(double answer, double truth, double condition, double accuracy) {
-    const double error = std::abs(answer - truth);
-    const double allowed = std::max(accuracy, 16 * condition);
-    if (truth != 0) {
-      largest = std::max(largest, error / std::abs(truth));
-      per_condition = std::max(per_condition, error / std::abs(truth) * accuracy / allowed);
-    }
-    if (std::isnan(error)) {
-      largest = per_condition = std::numeric_limits<double>::infinity();
-    }
-  }
-
-  double largest = 0;
-  double per_condition = 0;  ///< scaled so that `accuracy` is what conditioning allows
-};
-
-template <class Law>
-bridge_errors errors_of(const Law& law, const bridge_question& q, const meniscus<double>& m) {
-  const bridge_conditions kappa(q);
+bridge_errors errors_of(const young_laplace<>& law, const bridge_question& q, const meniscus<double>& m) {
+  const auto kappa = conditions_of(law, q);
   const auto areas = law.areas(q.shape, m);
+  const std::array<double, 5> truth{q.force, q.by_volume ? q.suction : q.volume, q.areas[0], q.areas[1], q.areas[2]};
+  const std::array<double, 5> answer{m.force, q.by_volume ? m.suction : m.volume, areas.liquid_gas, areas.wetted1,
+                                     areas.wetted2};
   bridge_errors e;
-  e.add(m.force, q.force, kappa.force, exact_accuracy);
-  e.add(q.by_volume ? m.suction : m.volume, q.by_volume ? q.suction : q.volume, kappa.other, exact_accuracy);
-  e.add(areas.liquid_gas, q.areas[0], kappa.areas, exact_accuracy);
-  e.add(areas.wetted1, q.areas[1], kappa.areas, exact_accuracy);
-  e.add(areas.wetted2, q.areas[2], kappa.areas, exact_accuracy);
+  for (std::size_t k = 0; k < truth.size(); ++k) {
+    const double error = std::abs(answer[k] / truth[k] - 1);
+    const double allowed = std::max(exact_accuracy, 16 * kappa[k]);
+    if (!(error < std::numeric_limits<double>::infinity())) {
+      return {error, std::numeric_limits<double>::infinity(), true};
+    }
+    e.largest = std::max(e.largest, error);
+    e.per_condition = std::max(e.per_condition, error / allowed * exact_accuracy);
+    e.above_force = e.above_force || error > std::max(exact_accuracy, 16 * kappa[0]);
+  }
   return e;
 }
 
@@ -204,6 +216,7 @@ law_report measure_exact(const std::vector<bridge_question>& questions) {
   std::vector<bridge_question> right;
   double traps = 0;
   double slipped = 0;  // traps that got a bridge
+  double above_force = 0;
   for (const auto& q : questions) {
     const law_type law = exact_law(q);
     const auto answer = with_given(q, [&](const auto& g) { return law.bridge(q.shape, g); });
@@ -218,6 +231,7 @@ law_report measure_exact(const std::vector<bridge_question>& questions) {
       if (answer.ok()) {
         const bridge_errors e = errors_of(law, *truth, answer.value);
         const double slope = stiffness_error(law, *truth, answer.value);
+        above_force += e.above_force ? 1 : 0;
         row.error = e.largest;
         row.per_condition = e.per_condition;
         row.derivative_error = slope;
@@ -243,29 +257,44 @@ law_report measure_exact(const std::vector<bridge_question>& questions) {
   };
   report.more = {{"ns_volume", time_exact(right, stable_one(true))},
                  {"ns_suction", time_exact(right, stable_one(false))},
+                 {"rows_above_condition_of_force", above_force},
                  {"unstable_rows", traps},
                  {"unstable_rows_answered_by_another_bridge", slipped}};
   return report;
 }
 
-/// A law of given volume that knows the force alone, on the stable rows that it says it covers.
-template <class Law, class Make>
-law_report measure_closed_form(const std::string& name, const std::vector<bridge_question>& questions,
-                               const Make& make) {
+/// A law for the material of a row; nothing where the law knows one contact angle and the row has two.
+template <class Law>
+std::optional<Law> law_of(const bridge_question& q) {
+  if constexpr (requires(Law l) { l.contact_angle1; }) {
+    return Law{.surface_tension = 1.0, .contact_angle1 = q.angle1, .contact_angle2 = q.angle2};
+  } else if constexpr (requires(Law l) { l.contact_angle; }) {
+    return q.angle1 == q.angle2 ? std::optional(Law{.surface_tension = 1.0, .contact_angle = q.angle1}) : std::nullopt;
+  } else {
+    return q.angle1 == 0 && q.angle2 == 0 ? std::optional(Law{.surface_tension = 1.0}) : std::nullopt;
+  }
+}
+
+/// The force by an approximation, on the stable bridges of given volume that it says it covers, up to nine tenths of the
+/// rupture gap.
+template <class Law>
+law_report measure_approximation(const std::string& name, const std::vector<bridge_question>& questions) {
   constexpr double accuracy = stated_by<Law>(std::numeric_limits<double>::infinity());
   law_report report{name, accuracy, {}, 0, {}};
   std::vector<bridge_question> right;
   double outside = 0;
+  double squares = 0;
   for (const auto& q : questions) {
-    const std::optional<Law> law = make(q);
-    if (!q.by_volume || q.stable != 1 || !law) {
+    if (!q.by_volume || q.stable != 1) {
       continue;
     }
-    const auto answer = law->bridge(q.shape, given_volume<double>{q.volume});
-    if (answer.reason == bridge_status::not_covered) {
+    const std::optional<Law> law = law_of<Law>(q);
+    const bool near = q.shape.gap <= 0.9 * q.fold;  // where there is no fold, it is NaN
+    if (!law || !near || law->bridge(q.shape, given_volume<double>{q.volume}).reason == bridge_status::not_covered) {
       ++outside;
       continue;
     }
+    const auto answer = law->bridge(q.shape, given_volume<double>{q.volume});
     row_result row;
     row.name = q.name;
     row.solved = answer.ok() || answer.kind() == verdict::absent;
@@ -274,6 +303,7 @@ law_report measure_closed_form(const std::string& name, const std::vector<bridge
       row.error = std::abs(answer.value.force / q.force - 1);
       row.per_condition = *row.error;
       row.wrong = !(*row.error <= accuracy);
+      squares += *row.error * *row.error;
     }
     report.rows.push_back(row);
     if (!row.wrong) {
@@ -282,7 +312,68 @@ law_report measure_closed_form(const std::string& name, const std::vector<bridge
   }
   if (!right.empty()) {
     report.nanoseconds = time_of(right.size(), [&](std::size_t i) {
-      return make(right[i])->bridge(right[i].shape, given_volume<double>{right[i].volume}).value.force;
+      return law_of<Law>(right[i])->bridge(right[i].shape, given_volume<double>{right[i].volume}).value.force;
+    });
+  }
+  report.more = {{"rms_rel_err", std::sqrt(squares / static_cast<double>(std::max<std::size_t>(report.rows.size(), 1)))},
+                 {"outside", outside}};
+  return report;
+}
+
+/// A table for each stable bridge of given volume, from the exact law. What it states is the error of the force in the
+/// largest force that it holds.
+law_report measure_table(const std::vector<bridge_question>& questions) {
+  law_report report{"bridge_table", 1e-6, {}, 0, {}};
+  double outside = 0;
+  std::vector<bridge_question> right;
+  const auto table = std::make_unique<bridge_table<>>();
+  for (const auto& q : questions) {
+    if (!q.by_volume || q.stable != 1) {
+      continue;
+    }
+    const double overlap = std::max(0.0, -1.01 * q.shape.gap);
+    const table_report made = table->build(exact_law(q), {.radius1 = 1.0,
+                                                          .radius2 = q.shape.radius2,
+                                                          .least_volume = 0.99 * q.volume,
+                                                          .largest_volume = 1.01 * q.volume,
+                                                          .deepest_overlap = overlap});
+    if (made.reason != bridge_status::ok || !(made.error < report.stated_accuracy)) {
+      ++outside;
+      continue;
+    }
+    const tabulated<> law{table.get()};
+    const auto answer = law.bridge(q.shape, given_volume<double>{q.volume});
+    double most = std::abs(q.force);
+    const double widest = exact_law(q).rupture_gap(q.shape, given_volume<double>{q.volume}).value.gap;
+    for (int k = 0; k < 8; ++k) {
+      edge<double> other = q.shape;
+      other.gap = widest * k / 8;
+      const auto there = law.bridge(other, given_volume<double>{q.volume});
+      most = there.ok() ? std::max(most, std::abs(there.value.force)) : most;
+    }
+    row_result row;
+    row.name = q.name;
+    row.solved = answer.ok() || answer.kind() == verdict::absent;
+    row.wrong = !answer.ok();
+    if (answer.ok()) {
+      row.error = std::abs(answer.value.force / q.force - 1);
+      row.per_condition = std::abs(answer.value.force - q.force) / most;
+      row.wrong = !(row.per_condition <= 2 * report.stated_accuracy);
+      right.push_back(q);
+    }
+    report.rows.push_back(row);
+  }
+  const bridge_question* last = right.empty() ? nullptr : &right.back();
+  if (last != nullptr && table->build(exact_law(*last), {.radius1 = 1.0,
+                                                         .radius2 = last->shape.radius2,
+                                                         .least_volume = 0.5 * last->volume,
+                                                         .largest_volume = 2 * last->volume})
+                                 .reason == bridge_status::ok) {
+    report.nanoseconds = time_of(1000, [&](std::size_t i) {  // one table, many places in it
+      const auto f = tabulated<>{table.get()}.bridge(
+          edge<double>{1.0, last->shape.radius2, last->fold * 1e-4 * static_cast<double>(i * 7919 % 8000), {}},
+          given_volume<double>{last->volume * (0.6 + 1e-3 * static_cast<double>(i * 104729 % 1000))});
+      return f.ok() ? f.value.force : 0;
     });
   }
   report.more = {{"outside", outside}};
@@ -297,8 +388,43 @@ std::vector<bridge_question> questions_of(const csv_table& t) {
   return all;
 }
 
+/// The gap up to which the symmetric bridge of an equal pair is stable, where a table beside this one knows it.
+std::map<std::string, double> leaning_gaps(const csv_table& t) {
+  std::map<std::string, double> gap;
+  const auto path = t.path().parent_path() / "rupture_asym_open.csv";
+  if (std::filesystem::exists(path)) {
+    const csv_table beside(path);
+    for (std::size_t i = 0; i < beside.size(); ++i) {
+      if (!beside.text(i, "D_asym").empty()) {
+        gap[beside.text(i, "theta_deg") + ' ' + beside.text(i, "V")] = beside.number(i, "D_asym");
+      }
+    }
+  }
+  return gap;
+}
+
 std::vector<law_report> measure_bridges(const csv_table& t) {
-  return {measure_exact(questions_of(t))};
+  auto all = questions_of(t);
+  // A bridge on the way to its fold that one table calls unstable, and the other stable up to a wider gap: undetermined.
+  const auto leaning = leaning_gaps(t);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto at = leaning.find(t.text(i, "theta1_deg") + ' ' + t.text(i, "V"));
+    if (all[i].by_volume && all[i].stable == 0 && may_lean(all[i]) && t.text(i, "tag") != "unstable" &&
+        at != leaning.end() && all[i].shape.gap < at->second) {
+      std::fprintf(stderr, "%s: rupture_asym_open.csv says that it is stable\n", all[i].name.c_str());
+      all[i].stable = -1;
+    }
+  }
+  return {measure_exact(all),
+          measure_approximation<toroid<>>("toroid", all),
+          measure_approximation<willett<>>("willett", all),
+          measure_approximation<willett_small<>>("willett_small", all),
+          measure_approximation<lambert<>>("lambert", all),
+          measure_approximation<rabinovich<>>("rabinovich", all),
+          measure_approximation<soulie<>>("soulie", all),
+          measure_approximation<weigert_ripperger<>>("weigert_ripperger", all),
+          measure_approximation<mikami<>>("mikami", all),
+          measure_table(all)};
 }
 
 /// Where a bridge must end.
@@ -307,6 +433,7 @@ struct rupture_question {
   double fold = 0;
   std::optional<double> lopsided;  ///< the gap where symmetry is lost first
   bool determined = true;          ///< whether the table knows which comes first
+  bool past_loss = false;          ///< the fold is one of a bridge that has lost its stability on the way
 };
 
 /// Whether a bridge hangs just before a gap and none just beyond it. Near the fold F changes as the root of the distance:
@@ -340,7 +467,7 @@ std::vector<law_report> measure_ruptures(const std::vector<rupture_question>& qu
       if (r.determined) {
         row.wrong = row.wrong || leans != r.lopsided.has_value();
         row.error = std::abs(gap / r.lopsided.value_or(r.fold) - 1);
-      } else if (leans) {
+      } else if (leans || r.past_loss) {
         row.wrong = row.wrong || !(gap < r.fold);
       } else {
         row.error = std::abs(gap / r.fold - 1);
@@ -358,11 +485,16 @@ std::vector<law_report> measure_ruptures(const std::vector<rupture_question>& qu
   return {report};
 }
 
-/// Folds of all pairs. An equal pair may lean over before: which, the other table says.
+/// Folds of all pairs. An equal pair may lean over before: which, the other table says. So does, in effect, an unequal one
+/// with so little liquid that it hardly sees the difference, at a fold that comes first. Two rows have missed that: at
+/// θ = 60° and V / R³ near 1e-9 an equal pair leans over at 0.888 of its fold (rupture_asym_open.csv), the suction of their
+/// fold is that of the equal pair's, and their neighbours at other volumes and radii have the early fold.
 std::vector<law_report> measure_folds(const csv_table& t) {
   std::vector<rupture_question> all;
   for (const bridge_question& q : questions_of(t)) {
-    all.push_back({q, q.shape.gap, std::nullopt, !may_lean(q)});
+    const bool missed = q.request == "V 0.1 60 60 0.00015992188276485459377 9.9999999999999997989e-13" ||
+                        q.request == "V inf 60 60 0.0015992041412335291083 1.0000000000000000623e-9";
+    all.push_back({q, q.shape.gap, std::nullopt, !may_lean(q) && !missed, missed});
   }
   return measure_ruptures(all);
 }
@@ -378,7 +510,7 @@ std::vector<law_report> measure_lopsided(const csv_table& t) {
     q.name = "theta " + t.text(i, "theta_deg") + " V " + t.text(i, "V").substr(0, 8);
     const bool blank = t.text(i, "D_asym").empty();
     all.push_back({q, t.number(i, "D_fold"), blank ? std::nullopt : std::optional(t.number(i, "D_asym")),
-                   !blank || t.number(i, "theta_deg") < 75});
+                   !blank || t.number(i, "theta_deg") < 75, false});
   }
   return measure_ruptures(all);
 }
