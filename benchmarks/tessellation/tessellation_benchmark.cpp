@@ -3,10 +3,10 @@
 // From spheres to the measured network, beside what the bare library call allows: CGAL's range insertion of the same
 // spheres. The error of a row is |Σ void + solid - box| / box.
 
+#include "support/compiled_triangulation.hpp"
 #include "support/dense_packing.hpp"
 #include "tetrapore/network.hpp"
 #include "tetrapore/packing/packing.hpp"
-#include "tetrapore/tessellation/cgal.hpp"
 
 #include <benchmark/benchmark.h>
 
@@ -23,20 +23,10 @@ const packing& dense(std::size_t n) {
 }
 
 void cgal_alone(benchmark::State& state) {
-  using regular = detail::cgal_regular;
   const packing& p = dense(static_cast<std::size_t>(state.range(0)));
   std::size_t cells = 0;
   for (auto _ : state) {
-    std::vector<std::pair<regular::Weighted_point, detail::cgal_vertex>> sites;
-    sites.reserve(p.grains.size());
-    for (std::size_t i = 0; i < p.grains.size(); ++i) {
-      const auto& g = p.grains[i];
-      sites.emplace_back(regular::Weighted_point({g.centre.x, g.centre.y, g.centre.z}, g.radius * g.radius),
-                         detail::cgal_vertex{vertex(grain_id(i)), {}});
-    }
-    regular t;
-    t.insert(sites.begin(), sites.end());
-    cells = t.number_of_finite_cells();
+    cells = triangulate_bare(p.grains).cells;
   }
   state.counters["per_grain"] =
       benchmark::Counter(static_cast<double>(p.grains.size()),
@@ -57,7 +47,7 @@ void spheres_to_network(benchmark::State& state) {
   const domain region = state.range(1) != 0 ? domain_of(packing{p.grains, p.bounds, {true, true, true}}) : domain_of(p);
   network net;
   for (auto _ : state) {
-    net = cgal_triangulation{}(p.grains, region).net;
+    net = compiled_triangulation{}(p.grains, region).net;
   }
   const double box = compensated_sum(net.arrays().volumes);
   state.counters["per_grain"] =

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "support/compiled_triangulation.hpp"
 #include "support/shared_data.hpp"
 #include "tetrapore/io/read_packing.hpp"
 #include "tetrapore/network.hpp"
 #include "tetrapore/packing/packing.hpp"
-#include "tetrapore/tessellation/cgal.hpp"
 
 #include <cmath>
+#include <fstream>
 #include <random>
 #include <string>
+#include <vector>
 
 using namespace tetrapore;
 
@@ -41,7 +43,7 @@ constexpr double bound = 1e-12;
 void check_filled(const packing& p, const std::string& axes) {
   CAPTURE(axes);
   const domain d = region_of(p, axes);
-  const auto t = cgal_triangulation{}(p.grains, d);
+  const auto t = compiled_triangulation{}(p.grains, d);
   validate(t.net);
   const balance b = balance_of(t.net);
   CHECK(b.defect() < bound);
@@ -115,7 +117,7 @@ TEST_CASE("void + solid = hull for the balls that Finney measured, which overlap
     grains.push_back({{x, y, z}, 1.0});
   }
   REQUIRE(grains.size() == 4021);
-  const auto t = cgal_triangulation{}(grains, unbounded());
+  const auto t = compiled_triangulation{}(grains, unbounded());
   CHECK(balance_of(t.net).defect() < bound);
 }
 
@@ -142,7 +144,7 @@ TEST_CASE("counts of vertices, edges, facets and cells are those of the data, an
     } else {
       grains = io::read_packing(*path).packing.grains;
     }
-    const auto t = cgal_triangulation{}(grains, unbounded());
+    const auto t = compiled_triangulation{}(grains, unbounded());
     const std::size_t edges = edges_of(t.net).size();
     CHECK(t.report.hidden.empty());
     CHECK(grains.size() == x.v);
@@ -173,7 +175,7 @@ TEST_CASE("the void of 100 random pores, those at walls among them, agrees with 
   if (p.grains.empty()) {
     return;
   }
-  const auto t = cgal_triangulation{}(p.grains, region_of(p, "www"));
+  const auto t = compiled_triangulation{}(p.grains, region_of(p, "www"));
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> uniform(0, 1);
   constexpr int points = 20000;

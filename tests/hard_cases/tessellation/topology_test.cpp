@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "support/compiled_triangulation.hpp"
 #include "support/random_spheres.hpp"
 #include "tetrapore/law/entry.hpp"
 #include "tetrapore/network.hpp"
 #include "tetrapore/network/gather_opening.hpp"
-#include "tetrapore/tessellation/cgal.hpp"
 
 #include <doctest/doctest.h>
 
@@ -42,7 +42,7 @@ double defect(const network& net) {
 
 std::string refusal(const std::vector<sphere<double>>& grains, const domain& d) {
   try {
-    static_cast<void>(cgal_triangulation{}(grains, d));
+    static_cast<void>(compiled_triangulation{}(grains, d));
   } catch (const packing_error& e) {
     return e.what();
   }
@@ -63,7 +63,7 @@ TEST_CASE("exact lattices close under any mixture of walls and periods, and fill
       if (grains.size() < 4) {
         continue;
       }
-      const auto t = cgal_triangulation{}(grains, d);
+      const auto t = compiled_triangulation{}(grains, d);
       validate(t.net);
       CHECK(defect(t.net) < 1e-13);
       CHECK(std::abs(compensated_sum(t.net.arrays().volumes) - 1.0) < 1e-13);
@@ -75,7 +75,7 @@ TEST_CASE("exact lattices close under any mixture of walls and periods, and fill
 }
 
 TEST_CASE("a periodic lattice of eight grains has the void of a simple cubic array") {
-  const auto t = cgal_triangulation{}(cubic_lattice(2, 0.0), unit_box(periodic, periodic, periodic));
+  const auto t = compiled_triangulation{}(cubic_lattice(2, 0.0), unit_box(periodic, periodic, periodic));
   CHECK(std::abs(compensated_sum(t.net.arrays().void_volumes) - (1 - pi<double> / 6)) < 1e-14);
   // every pore of a simple cubic array is a part of the same cavity: all power centres are centres of cubes
   for (std::size_t i = 0; i < t.net.pore_count(); ++i) {
@@ -90,8 +90,8 @@ TEST_CASE(
     "the size of the device that stands for a wall changes nothing: no volume, no centre, no area, no entry pressure") {
   for (const unsigned seed : {1U, 2U, 3U}) {
     const auto grains = loose_spheres(200, seed);
-    const auto a = cgal_triangulation({.wall_device = 0x1p24})(grains, unit_box(wall, wall, wall)).net;
-    const auto b = cgal_triangulation({.wall_device = 10 * 0x1p24})(grains, unit_box(wall, wall, wall)).net;
+    const auto a = compiled_triangulation{.wall_device = 0x1p24}(grains, unit_box(wall, wall, wall)).net;
+    const auto b = compiled_triangulation{.wall_device = 10 * 0x1p24}(grains, unit_box(wall, wall, wall)).net;
     REQUIRE(a.pore_count() == b.pore_count());
     std::map<std::array<vertex, 4>, pore_id> by_name;
     const auto name_of = [](const network& net, pore_id p) {
@@ -133,7 +133,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a pore at a wall has its power centre on the plane") {
-  const auto t = cgal_triangulation{}(loose_spheres(200, 4), unit_box(wall, wall, wall));
+  const auto t = compiled_triangulation{}(loose_spheres(200, 4), unit_box(wall, wall, wall));
   for (std::size_t i = 0; i < t.net.pore_count(); ++i) {
     for (const vertex v : t.net.vertices(pore_id(i))) {
       if (v.is_wall()) {
@@ -144,7 +144,7 @@ TEST_CASE("a pore at a wall has its power centre on the plane") {
 }
 
 TEST_CASE("at each of the eight corners lies one cuboid, which has no throat opposite to its grain") {
-  const auto t = cgal_triangulation{}(loose_spheres(60, 9), unit_box(wall, wall, wall));
+  const auto t = compiled_triangulation{}(loose_spheres(60, 9), unit_box(wall, wall, wall));
   int corners = 0;
   for (std::size_t i = 0; i < t.net.pore_count(); ++i) {
     if (t.net.grain_vertices(pore_id(i)) == 1) {
@@ -159,7 +159,7 @@ TEST_CASE("the power centres are no farther in power from their own grains than 
   const auto grains = loose_spheres(120, 6);
   for (const auto& d :
        {unit_box(wall, wall, wall), unit_box(open, open, open), unit_box(periodic, periodic, periodic)}) {
-    const auto t = cgal_triangulation{}(grains, d);
+    const auto t = compiled_triangulation{}(grains, d);
     for (std::size_t i = 0; i < t.net.pore_count(); ++i) {
       const pore_id p(i);
       const double own = power(t.net.power_centre(p), t.net.grain_sphere(p, 0));
@@ -187,7 +187,7 @@ TEST_CASE("radii from 1 to 1000, overlapping and engulfed grains: hidden ones ar
   }
   grains.push_back({grains[1].centre + vec3<double>{0.01 * grains[1].radius, 0, 0}, 0.5 * grains[1].radius});
   grains.push_back(grains[4]);
-  const auto t = cgal_triangulation{}(grains, unit_box(wall, wall, wall));
+  const auto t = compiled_triangulation{}(grains, unit_box(wall, wall, wall));
   REQUIRE(t.report.hidden.size() == 2);
   std::size_t twins = 0;
   for (const auto& h : t.report.hidden) {
@@ -216,8 +216,8 @@ TEST_CASE("at a million boxes from the origin the topology is that at the origin
   for (const auto& d : {unit_box(wall, wall, wall), unit_box(periodic, periodic, wall)}) {
     domain there = d;
     there.bounds = {d.bounds.lo + offset, d.bounds.hi + offset};
-    const auto near = cgal_triangulation{}(grains, d);
-    const auto far = cgal_triangulation{}(away, there);
+    const auto near = compiled_triangulation{}(grains, d);
+    const auto far = compiled_triangulation{}(away, there);
     CHECK(edges_of(near.net) == edges_of(far.net));
     REQUIRE(near.net.pore_count() == far.net.pore_count());
     for (std::size_t i = 0; i < near.net.pore_count(); ++i) {

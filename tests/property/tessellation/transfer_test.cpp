@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "support/compiled_triangulation.hpp"
 #include "support/random_spheres.hpp"
 #include "tetrapore/network.hpp"
-#include "tetrapore/tessellation/cgal.hpp"
 
 #include <doctest/doctest.h>
 
@@ -39,7 +39,7 @@ TEST_CASE("a rebuild keeps the liquid, fills full pores exactly, and leaves a co
     for (const double amplitude : {0.01, 0.1, 0.4}) {
       CAPTURE(amplitude);
       const auto grains = loose_spheres(150, 5);
-      const cgal_triangulation engine;
+      const compiled_triangulation engine;
       network net = engine(grains, region).net;
       const auto moved = stirred(grains, region, amplitude, 11);
       network followed = net;
@@ -75,7 +75,7 @@ TEST_CASE("a rebuild keeps the liquid, fills full pores exactly, and leaves a co
 
 TEST_CASE("a rebuild of grains that did not move hands every pore over whole") {
   const auto grains = loose_spheres(100, 3);
-  const cgal_triangulation engine;
+  const compiled_triangulation engine;
   network net = engine(grains, unit_box(wall, periodic, wall)).net;
   const network before = net;
   const transfer way = rebuild(net, engine, grains);
