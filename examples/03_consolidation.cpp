@@ -15,6 +15,7 @@
 #include "tetrapore/io/csv.hpp"
 #include "tetrapore/io/read_packing.hpp"
 #include "tetrapore/packing/check.hpp"
+#include "tetrapore/tessellation/cgal.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -93,7 +94,7 @@ void run(const job& j) {
   support::dem column = column_of(j);
   const double seconds_packing = watch.lap();
   std::fprintf(stderr, "%zu grains at rest under %g Pa\n", column.grains.size(), j.test.stress);
-  const support::consolidation c = support::consolidate(column, j.test);
+  const support::consolidation c = support::consolidate(column, j.test, tp::cgal_triangulation{});
   const double seconds_coupled = watch.lap();
   std::filesystem::create_directories(j.out);
   write_files(j, c);

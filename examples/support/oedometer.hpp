@@ -7,7 +7,7 @@
 #include "tetrapore/one_phase/coupling.hpp"
 #include "tetrapore/packing/random_packing.hpp"
 #include "tetrapore/solver/ldlt.hpp"
-#include "tetrapore/tessellation/cgal.hpp"
+#include "tetrapore/tessellation/tessellation.hpp"
 
 #include <algorithm>
 #include <array>
@@ -117,7 +117,8 @@ using slip_law = tp::hydraulic_radius;
 }
 
 /// \param grains  at rest under their load
-[[nodiscard]] inline soil measure_soil(const dem& grains, double load_step) {
+template <tp::tessellation_engine Engine>
+[[nodiscard]] soil measure_soil(const dem& grains, double load_step, const Engine& triangulate) {
   soil s;
   s.height = grains.height();
   s.area = grains.area();
@@ -132,7 +133,7 @@ using slip_law = tp::hydraulic_radius;
   s.settlement = grains.height() - pressed.height();
   s.modulus = load_step / s.area / (s.settlement / s.height);
 
-  const tp::tessellation mesh = tp::cgal_triangulation{}(grains.grains, tp::walled(grains.bounds));
+  const tp::tessellation mesh = triangulate(grains.grains, tp::walled(grains.bounds));
   double voids = 0;
   for (const double v : mesh.net.arrays().void_volumes) {
     voids += v;
@@ -208,11 +209,12 @@ template <class Flow>
 /// Loads the piston by a step and follows the consolidation. The fluid has the pressure 0 at the piston, which lets it
 /// through; the other walls are sealed.
 /// \param grains  at rest under their load
-[[nodiscard]] inline consolidation consolidate(dem& grains, const oedometer_options& o) {
+template <tp::tessellation_engine Engine>
+[[nodiscard]] consolidation consolidate(dem& grains, const oedometer_options& o, const Engine& triangulate) {
   constexpr std::size_t layers = 10;
   consolidation out;
   const double step = o.step * grains.load;
-  out.ground = measure_soil(grains, step);
+  out.ground = measure_soil(grains, step, triangulate);
   const soil& s = out.ground;
   // H²/c_v = slowness · H/c, with c_v = k E/μ and c² = E/ρ
   out.viscosity = o.slowness * s.permeability * std::sqrt(s.density * s.modulus) / s.height;
@@ -223,7 +225,6 @@ template <class Flow>
   tp::flow_options drained;
   drained.conditions.at(tp::face::y_max) = tp::held_pressure(0.0);
   drained.refused = tp::refused_throats::closed;
-  const tp::cgal_triangulation triangulate;
   tp::coupled_flow flow(triangulate(grains.grains, tp::walled(grains.bounds)).net, law_of(out.viscosity),
                         tp::ldlt_solver<>{}, drained, {.refresh_every = o.refresh_every});
   out.drag_step = flow.largest_step(grains.masses);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "../../../examples/support/oedometer.hpp"
+#include "support/compiled_triangulation.hpp"
 
 #include <doctest/doctest.h>
 
@@ -45,7 +46,7 @@ TEST_CASE("a saturated column consolidates as Terzaghi says, within what one lay
   o.end = 0.55;
   o.rebuild_every = 500;
   support::dem column = support::settled_column(support::loose_column(o), o);
-  const support::consolidation c = support::consolidate(column, o);
+  const support::consolidation c = support::consolidate(column, o, compiled_triangulation{});
   const double layer = 2 * o.radius / c.ground.height;
   MESSAGE("settlement " << c.settlement_error << ", pressure " << c.pressure_error << ", one layer " << layer);
   CHECK(c.settlement_error < layer);

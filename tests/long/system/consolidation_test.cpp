@@ -5,6 +5,7 @@
 // campaign that has its file is not run again; the second one keeps what it has reached beside it and continues from
 // there.
 #include "../../../examples/support/oedometer.hpp"
+#include "support/compiled_triangulation.hpp"
 
 #include <doctest/doctest.h>
 
@@ -115,7 +116,7 @@ TEST_CASE("a tall column consolidates within 3 % of Terzaghi, in settlement and 
     o.end = 1.5;
     o.rebuild_every = 2000;
     support::dem column = support::settled_column(support::loose_column(o), o);
-    const support::consolidation c = support::consolidate(column, o);
+    const support::consolidation c = support::consolidate(column, o, compiled_triangulation{});
     CHECK(c.settlement_error < 0.03);
     CHECK(c.pressure_error < 0.03);  // of ten layers at five times
     CHECK(c.mass_defect < 1e-10);
@@ -163,7 +164,7 @@ TEST_CASE("100,000 coupled steps with triangulations anew lose no fluid, no numb
   drained.conditions.at(tp::face::y_max) = tp::held_pressure(0.0);
   drained.fluid.bulk_modulus = 2e9;
   drained.refused = tp::refused_throats::closed;
-  const tp::cgal_triangulation triangulate;
+  const compiled_triangulation triangulate;
   tp::coupled_flow flow(triangulate(grains.grains, tp::walled(grains.bounds)).net, support::law_of(0.05),
                         tp::ldlt_solver<>{}, drained, {.refresh_every = 10});
   const tp::fluid_ledger before = done.fluid;
