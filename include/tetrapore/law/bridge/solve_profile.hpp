@@ -111,7 +111,8 @@ inline void choose_chart(const surface_pair<T>& pair, profile<T>& u) noexcept {
   }
   const T least = smaller(p[0], p[1]);
   const bool bulge = im[0] > T(0) && im[1] > T(0) && u.k < T(0);  // both circles on the way to it
-  const bool neck = !(u.k < T(0)) || (!bulge && re[0] + re[1] > T(0) && least > T(0.1) && lambda[0] > T(0) && lambda[1] > T(0) &&
+  const bool between = im[0] < T(0) && im[1] < T(0);            // a neck between them
+  const bool neck = !(u.k < T(0)) || (!bulge && (between || re[0] + re[1] > T(0)) && least > T(0.1) && lambda[0] > T(0) && lambda[1] > T(0) &&
                                       re[0] > T(-0.9) * p[0] && re[1] > T(-0.9) * p[1]);
   if (neck && u.by == chart::from_contact) {
     u.by = chart::from_extremum;
@@ -303,9 +304,10 @@ template <int N, bool Equal, bool Rough = false, std::floating_point T>
     before = size;
     trusted = !coarse;  // this step and the next share their rule
     coarse = coarse && size > T(0.02);
-    if (f.u.by == chart::from_extremum && T(1) + T(2) * f.u.k * f.u.extent < T(0.1) && charts < 3) {
-      ++charts;
+    if (charts < 3 && (f.u.by == chart::from_contact || T(1) + T(2) * f.u.k * f.u.extent < T(0.1))) {
+      const chart was = f.u.by;
       choose_chart<Equal>(pair, f.u);
+      charts += was == f.u.by ? 0 : 1;
     }
   }
   return f;
