@@ -11,8 +11,9 @@ namespace tetrapore::inline TETRAPORE_ABI {
 /// second of the pair (an infinite radius2).
 /// \par Units   viscosity [Pa s]; the resistance as in pair_resistance
 /// \par Domain  a plane; 0 < gap ≤ 2 radii; beyond: too_far; two spheres: not_covered
-/// \par Accuracy  against the exact solution, over the whole domain: squeeze 2e-8, shear 4e-7, coupling 1e-5 (of √(shear
-///                × roll)), roll 8e-5, twist 3e-5. Rounding 1e-13; in float 1e-4
+/// \par Accuracy  against the exact solution: squeeze 1e-6, shear 2e-5, coupling 3e-5 (of √(shear × roll)), roll and
+///                twist 3e-4 up to h = a/5; 3e-6, 2e-5, 8e-5, 4e-4, 1.5e-3 over the whole domain. Rounding 1e-13; in
+///                float 1e-4
 /// \par Source  Brenner 1961, Chem. Eng. Sci. 16, 242; O'Neill 1964, Mathematika 11, 67; Goldman, Cox & Brenner 1967,
 ///              Chem. Eng. Sci. 22, 637; Jeffery 1915; objective form and fit: own
 struct sphere_plane {

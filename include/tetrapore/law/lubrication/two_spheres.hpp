@@ -14,8 +14,9 @@ namespace tetrapore::inline TETRAPORE_ABI {
 /// \par Units   viscosity [Pa s]; the resistance as in pair_resistance
 /// \par Domain  radius ratios 1 to 0.1, no plane; 0 < gap ≤ 2a* = 2 a1 a2/(a1 + a2) (one radius between equal spheres,
 ///              two small radii at 0.1); beyond: not_covered, too_far
-/// \par Accuracy  against the exact solution, over the whole domain: squeeze 3e-6, shear 9e-5, coupling 7e-5 (of √(shear
-///                × roll)), roll 9e-5, twist 4e-5. Rounding 1e-13; in float 1e-4
+/// \par Accuracy  against the exact solution: squeeze 3e-6, shear 8e-5, coupling 3e-4 (of √(shear × roll)), roll 3e-4,
+///                twist 2e-4 up to h = a*/5; 9e-6, 7e-4, 6e-4, 5e-4, 1e-3 over the whole domain. Rounding 1e-13; in
+///                float 1e-4
 /// \par Source  Jeffrey & Onishi 1984, J. Fluid Mech. 139, 261; elimination of the rigid motions and fit: own
 struct two_spheres {
   required<double> viscosity;
