@@ -48,8 +48,9 @@ void run(const pendular_job& job) {
 
   support::pendular_results all;
   for (const double step : job.steps) {
-    support::answers found = support::ask(scene, law, job.held, step);
+    support::answers found = support::ask(scene, law, job.held, step, all.last);
     all.seconds_laws += found.seconds;
+    all.asked += found.asked;
     all.states.push_back(support::sum_up(scene, found.of_pair, step));
     all.last = std::move(found.of_pair);
   }

@@ -181,22 +181,30 @@ template <class Law, class Given>
   return {std::get<tp::young_laplace<>>(law_of(job, "exact")), scene.pairs, job.steps.back(), job.steps.front()};
 }
 
-/// The bridge of every pair, and the seconds of the law.
+/// The bridge of every pair.
 struct answers {
   std::vector<bridge_answer> of_pair;
-  double seconds = 0;
+  std::size_t asked = 0;  ///< times that the law was
+  double seconds = 0;     ///< that it took
 };
 
+/// The bridges of a step after those of the one before, which was wetter: a bridge that has let go stays so.
+/// \param before  empty for the first step
 [[nodiscard]] inline answers ask(const pendular_scene& scene, const bridge_law_of_the_job& law, control held,
-                                 double value) {
+                                 double value, std::span<const bridge_answer> before) {
+  const auto is_gone = [](const bridge_answer& b) { return verdict_of(b.reason) == tp::verdict::absent; };
   answers all;
+  all.of_pair.assign(before.begin(), before.end());
   all.of_pair.resize(scene.pairs.size());
   stopwatch watch;
   std::visit(
       [&]<class Law>(const Law& l) {
         with_given<Law>(held, value, [&](const auto& given) {
           for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
-            all.of_pair[i] = bridge_of(l, scene.pairs[i].shape, given);
+            if (before.empty() || !is_gone(before[i])) {
+              all.of_pair[i] = bridge_of(l, scene.pairs[i].shape, given);
+              ++all.asked;
+            }
           }
         });
       },

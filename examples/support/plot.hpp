@@ -28,7 +28,7 @@ struct mark {
   std::string text;  ///< beside it
 };
 
-/// Several curves over linear axes from 0. A second scale on the right shows y in other units.
+/// Several curves over linear axes from 0; a curve of one point is a dot. A second scale on the right shows y in other units.
 struct plot {
   std::string title;
   std::string subtitle;
@@ -124,6 +124,10 @@ inline void write_svg(const std::filesystem::path& path, const plot& p) {
     text(px(m.x) + 7, bottom - 12, "fill=\"#555\"", m.text);
   }
   for (const curve& c : p.curves) {
+    if (c.x.size() == 1) {
+      svg << "<circle cx=\"" << px(c.x[0]) << "\" cy=\"" << py(c.y[0]) << "\" r=\"4\" fill=\"" << c.colour << "\"/>\n";
+      continue;
+    }
     svg << "<polyline clip-path=\"url(#frame)\" fill=\"none\" stroke=\"" << c.colour << "\" stroke-width=\"" << c.width
         << "\" stroke-linejoin=\"round\"";
     if (!c.dashes.empty()) {
