@@ -185,14 +185,12 @@ class path {
 };
 
 /// Why a march ended.
-enum class arrival : unsigned char { at_target, at_fold, at_limit, lost };
+enum class arrival : unsigned char { at_target, at_fold, at_slide, at_limit, lost };
 
 template <std::floating_point T>
 struct journey {
-  waypoint<T> end;  ///< at the target or the fold
+  waypoint<T> end;  ///< at the target, at the fold, or where the circles of an equal pair begin to slide together
   arrival how;
-  waypoint<T> first_slide;  ///< where the circles of an equal pair begin to slide together, if they do
-  bool slides;
 };
 
 /// λ's rate by the filling angle at the first circle, of one sign as long as the circles hold.
@@ -201,34 +199,34 @@ template <std::floating_point T>
   return p.at.turn[0] * p.at.cosine[0];
 }
 
-/// Finds where between two waypoints of an equal pair the circles begin to slide.
+/// Finds where between two waypoints of an equal pair the circles begin to slide; false if they do not.
 template <int N, bool Equal, std::floating_point T>
-inline void note_slide(const path<Equal, T>& along_path, const waypoint<T>& from, const waypoint<T>& to,
-                       const T& distance, journey<T>& trip) noexcept {
-  if (!Equal || trip.slides || !(hold(from) > T(0)) || hold(to) > T(0)) {
-    return;
+[[nodiscard]] inline bool slides(const path<Equal, T>& along_path, const waypoint<T>& from, const waypoint<T>& to,
+                                 const T& distance, waypoint<T>& where) noexcept {
+  if (!Equal || !(hold(from) > T(0)) || hold(to) > T(0)) {
+    return false;
   }
   T low(0);
   T high = distance;
   T at_low = hold(from);
   T at_high = hold(to);
-  trip.slides = true;
-  trip.first_slide = to;
+  where = to;
   int iterations = 0;
   for (int i = 0; i < path<Equal, T>::locate_cap; ++i) {
     const T tau = i % 3 == 2 ? T(0.5) * (low + high) : low + (high - low) * at_low / (at_low - at_high);
     const waypoint<T> mid = along_path.template advance<N>(from, tau, &iterations);
     if (!mid.sound) {
-      return;
+      break;
     }
-    trip.first_slide = mid;
+    where = mid;
     const T now = hold(mid);
     if (std::abs(now) < T(4) * std::numeric_limits<T>::epsilon() || high - low < std::numeric_limits<T>::epsilon()) {
-      return;
+      break;
     }
     (now > T(0) ? low : high) = tau;
     (now > T(0) ? at_low : at_high) = now;
   }
+  return true;
 }
 
 /// Follows the curve from `start` until `reach` is the target or turns back. `sense` is that of the start.
@@ -239,7 +237,6 @@ template <int N, bool Equal, std::floating_point T>
   journey<T> trip;
   trip.end = from;
   trip.how = arrival::lost;
-  trip.slides = false;
   if (!from.sound) {
     return trip;
   }
@@ -271,8 +268,17 @@ template <int N, bool Equal, std::floating_point T>
       }
       continue;
     }
-    if (!folded) {
-      note_slide<N>(along_path, from, next, h, trip);
+    const auto slid = [&](const waypoint<T>& to, const T& distance) {
+      waypoint<T> where;
+      if (!slides<N>(along_path, from, to, distance, where) || sign * (where.reach - target) >= T(0)) {
+        return false;
+      }
+      trip.end = where;
+      trip.how = arrival::at_slide;
+      return true;
+    };
+    if (!folded && slid(next, h)) {
+      return trip;
     }
     if (!passed && !folded) {
       from = next;
@@ -316,7 +322,9 @@ template <int N, bool Equal, std::floating_point T>
         continue;
       }
       const waypoint<T>& top = sign * (at_high.reach - at_low.reach) > T(0) ? at_high : at_low;
-      note_slide<N>(along_path, from, at_low, low, trip);
+      if (slid(at_low, low)) {
+        return trip;
+      }
       if (sign * (top.reach - target) < T(0)) {
         trip.end = top;
         trip.how = arrival::at_fold;
@@ -368,7 +376,6 @@ template <int N, bool Equal, std::floating_point T>
 [[nodiscard]] inline journey<T> travel(const surface_pair<T>& pair, const demand<T>& d, const T& gap_limit) noexcept {
   journey<T> trip;
   trip.how = arrival::lost;
-  trip.slides = false;
   demand<T> at_contact{T(0), d.value, d.by};
   const T curvature = pair.side[0].curvature + pair.side[1].curvature;
   const T wetting = pair.side[0].cosine + pair.side[1].cosine;
@@ -421,7 +428,7 @@ template <int N, bool Equal, std::floating_point T>
     const int sense = by_volume ? 1 : -1;
     const auto filled = follow<N>(filling, filling.template begin<N>(u, sense), d.value, sense);
     if (filled.how != arrival::at_target) {
-      trip.how = filled.how == arrival::at_fold ? arrival::at_limit : arrival::lost;
+      trip.how = filled.how == arrival::lost ? arrival::lost : arrival::at_limit;
       return trip;
     }
     at_contact.value = d.value;

@@ -427,7 +427,7 @@ template <int N, bool Equal, std::floating_point T>
   sample<T> s;
   const T k = u.k;
   s.sound = u.extent > T(0) && u.w[0] > T(0) && u.w[1] > T(0) && k < T(0) &&
-            -k * u.extent < (Equal ? T(1.6) : T(3.2));
+            -k * u.extent < (Equal ? T(3.2) : T(6.4));
   if (!s.sound) {
     return s;
   }

@@ -151,7 +151,7 @@ struct stability_index {
 template <std::floating_point T>
 [[nodiscard]] inline int extrema(const sample<T>& s) noexcept {
   if ((s.cosine[0] < T(0)) == (s.cosine[1] < T(0))) {
-    return 1;
+    return s.span > T(2) * pi<T> ? 3 : 1;
   }
   return s.span > pi<T> ? 2 : 0;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tetrapore/core/required.hpp"
+#include "tetrapore/law/bridge/liquid.hpp"
 #include "tetrapore/law/bridge/march.hpp"
 #include "tetrapore/law/bridge/memory.hpp"
 
@@ -52,7 +53,8 @@ struct young_laplace {
   template <std::floating_point T>
   [[nodiscard]] bridge_areas<T> areas(const edge<T>& e, const meniscus<T>& m) const noexcept;
 
-  /// Free energy of a bridge, σ (A_liquid_gas − Σ cos θ A_wetted): −dE/dgap at constant volume is −force. \par Units [J]
+  /// Free energy of a bridge, σ (A_liquid_gas − Σ cos θ A_wetted). By dE = F dgap − p_c dV its slope along the gap is
+  /// the force. \par Units  [J]
   template <std::floating_point T>
   [[nodiscard]] T energy(const edge<T>& e, const meniscus<T>& m) const noexcept {
     using std::cos;
@@ -64,6 +66,11 @@ struct young_laplace {
   /// Derivatives of a bridge of this law on this edge.
   template <std::floating_point T>
   [[nodiscard]] bridge_stiffness<T> stiffness(const edge<T>& e, const meniscus<T>& m) const noexcept;
+
+  /// The liquid on either side of the neck, which each surface keeps when the bridge ruptures; halves where there is
+  /// none. \par Units  [m³]
+  template <std::floating_point T>
+  [[nodiscard]] std::array<T, 2> halves(const edge<T>& e, const meniscus<T>& m) const noexcept;
 
   /// Whether a bridge of this law on this edge is stable against axisymmetric disturbances.
   template <std::floating_point T>
@@ -253,6 +260,7 @@ struct young_laplace {
     const auto trip = detail::travel<fine, Equal>(pair, d, d.gap);
     switch (trip.how) {
       case detail::arrival::at_fold: return d.gap < W(0) ? bridge_status::flooded : bridge_status::ruptured;
+      case detail::arrival::at_slide: return bridge_status::lopsided;
       case detail::arrival::at_limit: return bridge_status::flooded;
       case detail::arrival::lost: return bridge_status::not_converged;
       case detail::arrival::at_target: break;
@@ -318,17 +326,13 @@ struct young_laplace {
   [[nodiscard]] outcome<bridge_limit<T>, bridge_status> widest_of(const detail::surface_pair<W>& pair,
                                                                   const detail::demand<W>& d) const noexcept {
     const auto trip = detail::travel<fine, Equal>(pair, d, infinity<W>);
-    const auto answer = [&](const detail::waypoint<W>& at, bridge_end how) -> outcome<bridge_limit<T>, bridge_status> {
-      const W scale = at.at.scale;
-      return {{static_cast<T>(at.reach), how,
-               meniscus_of<T>(pair, at.u, at.at.lambda * scale, at.at.volume * scale * scale * scale)},
+    if (trip.how == detail::arrival::at_fold || trip.how == detail::arrival::at_slide) {
+      const W scale = trip.end.at.scale;
+      return {{static_cast<T>(trip.end.reach),
+               trip.how == detail::arrival::at_fold ? bridge_end::fold : bridge_end::lopsided,
+               meniscus_of<T>(pair, trip.end.u, trip.end.at.lambda * scale,
+                              trip.end.at.volume * scale * scale * scale)},
               bridge_status::ok};
-    };
-    if (trip.slides) {
-      return answer(trip.first_slide, bridge_end::lopsided);
-    }
-    if (trip.how == detail::arrival::at_fold) {
-      return answer(trip.end, bridge_end::fold);
     }
     const auto why = trip.how == detail::arrival::at_limit ? bridge_status::flooded : bridge_status::not_converged;
     return {{T(quiet_nan<T>), bridge_end::fold, without<T>(why).value}, why};
@@ -409,6 +413,33 @@ bridge_areas<T> young_laplace<Nodes>::areas(const edge<T>& e, const meniscus<T>&
   a.wetted2 = pair.equal ? a.wetted1 : wetted(1);
   a.liquid_gas = static_cast<T>(detail::profile_area<fine>(pair, u));
   return a;
+}
+
+template <int Nodes>
+template <std::floating_point T>
+std::array<T, 2> young_laplace<Nodes>::halves(const edge<T>& e, const meniscus<T>& m) const noexcept {
+  using W = work<T>;
+  using std::sqrt;
+  const auto pair = pair_of(e);
+  const auto u = profile_in(m);
+  const T half = T(0.5) * m.volume;
+  const detail::contact_circle<W> first(pair.side[0], u.w[0]);
+  const detail::contact_circle<W> second(pair.side[1], u.w[1]);
+  if (pair.equal || m.by_length || !(first.cosine > W(0)) || !(second.cosine > W(0))) {
+    return {half, half};
+  }
+  detail::sample<W> s;
+  s.gap = s.volume = W(0);
+  for (auto& row : s.by) {
+    row[0] = row[1] = W(0);
+  }
+  const W a = u.k * u.extent;
+  const W p = W(1) + W(2) * a;
+  if (!detail::add_side<fine>(s, pair.side[0], a, p, W(1) / p, sqrt(p), W(1) / u.extent, u.w[0], 0)) {
+    return {half, half};
+  }
+  const T one = static_cast<T>(s.volume * u.extent * u.extent * u.extent);
+  return {one, m.volume - one};
 }
 
 static_assert(warm_bridge_law<young_laplace<>, double, given_volume<double>>);
