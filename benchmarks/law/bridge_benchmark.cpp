@@ -2,10 +2,10 @@
 //
 // The force of a bridge, one row per law: time per pair; `error`, the worst error against the exact law in long double
 // with 24 nodes, in 2πRσ (R of Derjaguin), on what the row is timed on; `failed`, the stable bridges of
-// tests/truth/bridge_stable.csv (402, 221 of them at a volume) under the row's control that get no answer, or one off by
-// more than a tenth of the force. Pairs of one material, θ = 20°: spheres of one size or two, V/R³ = 1e-3 to 0.1, gaps
-// up to 0.9 of the rupture gap; distinct, in random order, each law on those that it covers. Warm rows step the gap of
-// 4096 pairs by 0.2 % of the rupture gap, to and fro.
+// tests/truth/bridge_stable.csv (402, 221 of them at a volume) under the row's control that get no answer, or one off
+// by more than a tenth of the force. Pairs of one material, θ = 20°: spheres of one size or two, V/R³ = 1e-3 to 0.1,
+// gaps up to 0.9 of the rupture gap; distinct, in random order, each law on those that it covers. Warm rows step the
+// gap of 4096 pairs by 0.2 % of the rupture gap, to and fro.
 
 #include "support/csv_table.hpp"
 #include "tetrapore/law/bridge.hpp"
