@@ -179,7 +179,7 @@ inline void plot_content(const std::filesystem::path& path, const pendular_scene
   const bool by_suction = job.held == control::suction;
   const pendular_state* limit = all.pendular_limit();
   const bool touching = limit != nullptr && limit != &all.states.front();
-  curve c{"liquid of the bridges over the void", {}, {}, "#2b6cb0", "", false, 2.5};
+  curve c{"all bridges", {}, {}, "#2b6cb0", "", false, 2.5};
   double most = 0;
   double wettest = 0;
   for (const pendular_state& s : all.states) {
@@ -194,7 +194,7 @@ inline void plot_content(const std::filesystem::path& path, const pendular_scene
   }
   if (touching) {
     p.marks.push_back({limit->held / unit, ""});
-    c.name += by_suction ? "; bridges touch left of the line" : "; bridges touch right of the line";
+    c.name += by_suction ? "; left of the line they touch" : "; right of the line they touch";
   }
   p.curves.push_back(std::move(c));
   p.x_label = !by_suction ? "volume of a bridge [mm³]" : unit > 1 ? "suction [kPa]" : "suction [Pa]";
