@@ -142,8 +142,9 @@ TEST_CASE("under a gap that changes in time the schemes keep their order") {
 
 TEST_CASE("asperities beside the film: a film squeezed for long rests where springs and asperities balance") {
   const elastic_film<double> film{1, 2, 0.3, 5};
-  // 2 (g − u) + 5 (0.3 − u) = 0
-  const double rest = (2 * -0.1 + 5 * 0.3) / 7;
+  // 2 u (g − u) + 5 · 0.3 (0.3 − u) = 0
+  const double b = (2 * 0.1 + 5 * 0.3) / 2;
+  const double rest = (-b + std::sqrt(b * b + 4 * 5 * 0.09 / 2)) / 2;
   for (const film_scheme& s : {film_scheme{}, film_scheme{film_variable::logarithm, 1}}) {
     double u = 1;
     for (int k = 0; k < 200; ++k) {

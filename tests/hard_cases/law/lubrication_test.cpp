@@ -99,11 +99,13 @@ TEST_CASE("the equation of the logarithm is solved to rounding, wherever it lies
   pairs::random_pairs random(9);
   for (int trial = 0; trial < 200000; ++trial) {
     const double a = random.between_logs(1e-15, 1e15);
-    const double c = random.between(-1, 1) * random.between_logs(1e-15, 1e3);
-    const double y = detail::logarithmic_growth(a, c);
-    const double size = std::abs(y) + a * std::abs(std::expm1(y)) + std::abs(c);
+    const double b = random.between(0, 1) < 0.5 ? 0 : random.between_logs(1e-15, 1e15);
+    const double c = random.between(-1, 1) * random.between_logs(1e-15, 600);
+    const double y = detail::logarithmic_growth(a, b, c);
+    const double left = y + a * std::expm1(y) - b * std::expm1(-y);
+    const double size = std::abs(y) + std::abs(a * std::expm1(y)) + std::abs(b * std::expm1(-y)) + std::abs(c);
     // the rounding of the terms, and of y times the slope
-    CHECK(std::abs(y + a * std::expm1(y) - c) <= 5e-16 * (size + std::abs(y) * (1 + a * std::exp(y))));
+    CHECK(std::abs(left - c) <= 5e-16 * (size + std::abs(y) * (1 + a * std::exp(y) + b * std::exp(-y))));
   }
 }
 

@@ -13,7 +13,7 @@ namespace tetrapore::inline TETRAPORE_ABI {
 /// film, and asperities that carry beside the film where it is thinner than they are high. One implicit step of any
 /// length closes a step of a wet DEM:
 ///
-///   normal   ν u'/u = k (u_n − u) + k_a (u_a − u)₊, backward Euler: the thickness u stays positive
+///   normal   ν u'/u = k (u_n − u) + k_a (u_a − u)₊ u_a/u, backward Euler: the thickness u stays positive
 ///   shear    a spring k_s in series with the film (implicit Maxwell); where asperities carry N_a, nothing slides below
 ///            the friction × N_a, and above it friction and film add up
 ///   roll, twist, and the coupling of roll and shear: the film's, at its new thickness
@@ -23,8 +23,8 @@ namespace tetrapore::inline TETRAPORE_ABI {
 /// \par Units   stiffnesses [N/m], asperity height [m], friction 1
 /// \par Domain  normal and shear stiffness > 0, the others ≥ 0; gap > −radius. Where the lubrication law refuses the
 ///              thickness as too far the grains are apart: no force, and the state starts anew
-/// \par Accuracy  of the first order in the step; every part dissipates: work done on the pair = energy stored +
-///                dissipated ≥ energy stored, for every step
+/// \par Accuracy  of the first order in the step. The work done on the pair covers what is stored and dissipated, for
+///                every step, and every part dissipates
 /// \par Source  Chareyre et al., EPJ Web Conf. 140, 09027 (2017), §2.2; Marzougui, Chareyre & Chauchat 2015, Granular
 ///              Matter 17, 809, for film, spring and asperities; friction beside the film: own derivation
 template <class Film = leading_order>
@@ -44,10 +44,14 @@ struct wet_contact {
     vec3<T> normal{};  ///< of the last step
   };
 
-  /// A pair that comes into reach: the film fills the gap.
+  /// A pair that comes into reach: the film fills the gap. Grains that overlap from the start are given a thickness.
   template <real T>
   [[nodiscard]] state<T> start(const edge<T>& e) const noexcept {
     return {e.gap, {}, e.normal};
+  }
+  template <real T>
+  [[nodiscard]] state<T> start(const edge<T>& e, const T& thickness) const noexcept {
+    return {thickness, {}, e.normal};
   }
 
   /// One step. The edge is that of the end of the step, the motion the mean over it.
@@ -89,9 +93,8 @@ struct wet_contact {
     contact_forces<T> answer;
     answer.thickness = thickness.value;
     answer.pull = squeezed.stiffness * (e.gap - thickness.value);
-    answer.asperities = thickness.value < squeezed.asperity_height
-                            ? squeezed.asperity_stiffness * (squeezed.asperity_height - thickness.value)
-                            : T(0);
+    const bool touching = thickness.value < squeezed.asperity_height;
+    answer.asperities = touching ? squeezed.asperities(thickness.value) : T(0);
     const vec3<T> coupled = v.roll * r.coupling;
     const vec3<T> carried = detail::turned(s.shear, s.normal, e.normal, (dot(m.spin1 + m.spin2, e.normal)) * time * T(0.5));
     const vec3<T> trial = carried + v.slip * (number(shear_stiffness) * time);
@@ -106,8 +109,8 @@ struct wet_contact {
     answer.dissipated =
         time * ((answer.pull + answer.asperities) * growth + dot(drag, sliding.rate) + dot(rolling, v.roll) + r.twist * v.twist * v.twist);
     answer.stored = (answer.pull * answer.pull / squeezed.stiffness + norm2(drag) / number(shear_stiffness)) * T(0.5);
-    if (answer.asperities > T(0)) {
-      answer.stored = answer.stored + answer.asperities * answer.asperities / (T(2) * squeezed.asperity_stiffness);
+    if (touching) {
+      answer.stored = answer.stored + squeezed.asperity_energy(thickness.value);
     }
     s = {thickness.value, drag, e.normal};
     return {answer, contact_status::ok};

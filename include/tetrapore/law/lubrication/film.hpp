@@ -51,9 +51,10 @@ struct film_scheme {
 
 /// A film in series with the stiffness of the grains, and asperities beside it:
 ///
-///   ν u'/u = k (u_n − u) + k_a (u_a − u)₊
+///   ν u'/u = k (u_n − u) + k_a (u_a − u)₊ u_a/u
 ///
-/// u is the thickness of the film, u_n the gap of the undeformed grains (negative in an overlap), ν = h × squeeze
+/// Asperities give way with the stiffness k_a where the film begins to be thinner than they are, and without bound where
+/// it vanishes: plain springs under a load beyond k_a u_a would let the film thin out of the numbers. u is the thickness of the film, u_n the gap of the undeformed grains (negative in an overlap), ν = h × squeeze
 /// resistance, 6 π μ a*² to leading order.
 /// \par Units  drag [N s], stiffnesses [N/m], height [m]
 template <real T>
@@ -67,9 +68,19 @@ struct elastic_film {
   [[nodiscard]] constexpr T growth(const T& thickness, const T& gap) const noexcept {
     T force = stiffness * (gap - thickness);
     if (thickness < asperity_height) {
-      force = force + asperity_stiffness * (asperity_height - thickness);
+      force = force + asperities(thickness);
     }
     return force / drag;
+  }
+
+  /// What the asperities carry [N] where the film is thinner than they are, and the energy that they store [J].
+  [[nodiscard]] constexpr T asperities(const T& thickness) const noexcept {
+    return asperity_stiffness * (asperity_height - thickness) * (asperity_height / thickness);
+  }
+  [[nodiscard]] T asperity_energy(const T& thickness) const noexcept {
+    using std::log;
+    return asperity_stiffness * asperity_height *
+           (asperity_height * log(asperity_height / thickness) - (asperity_height - thickness));
   }
 };
 
@@ -87,29 +98,43 @@ template <real T>
   return b < T(0) ? (root - b) / (T(2) * a) : T(2) * c / (root + b);
 }
 
-inline constexpr int newton_limit = 60;
+inline constexpr int newton_limit = 100;
 
-/// y with y + a (e^y − 1) = c, a ≥ 0: the left side is convex and grows. NaN when it does not converge.
+/// y with y + a (e^y − 1) + b (1 − e^(−y)) = c, a, b ≥ 0: the left side grows. Newton's iteration, halved where it leaves
+/// what is known to hold the root. NaN when it does not converge.
 template <real T>
-[[nodiscard]] T logarithmic_growth(const T& a, const T& c) noexcept {
+[[nodiscard]] T logarithmic_growth(const T& a, const T& b, const T& c) noexcept {
   using std::exp;
   using std::expm1;
   using std::log1p;
-  if (!(a > T(0))) {
-    return c;
-  }
-  // a bound from above where c > 0, from below where c < 0
+  // y lies between 0 and what each term alone would make of it
   T y = c;
-  if (c > T(0) || -c < a) {
-    const T other = log1p(c / a);
-    y = c > T(0) ? (other < c ? other : c) : (c < other ? other : c);
+  const bool grows = c > T(0);
+  const auto nearer = [&y, grows](const T& other) {
+    if (grows ? other < y : y < other) {
+      y = other;
+    }
+  };
+  if (a > T(0) && (grows || -c < a)) {
+    nearer(log1p(c / a));
   }
+  if (b > T(0) && (!grows || c < b)) {
+    nearer(-log1p(-c / b));
+  }
+  T low = grows ? T(0) : y;
+  T high = grows ? y : T(0);
   T last(infinity<T>);
   for (int k = 0; k < newton_limit; ++k) {  // steps shrink until they are rounding
-    const T step = (y + a * expm1(y) - c) / (T(1) + a * exp(y));
-    y = y - step;
-    const T size = step < T(0) ? -step : step;
-    if (!(T(epsilon<T>) * (y < T(0) ? -y : y) < size) || (k > 1 && !(size < last))) {
+    const T value = y + a * expm1(y) - b * expm1(-y) - c;
+    (value > T(0) ? high : low) = y;
+    T next = y - value / (T(1) + a * exp(y) + b * exp(-y));
+    const bool inside = !(next < low) && !(high < next);
+    if (!inside) {
+      next = low + (high - low) * T(0.5);
+    }
+    const T size = next < y ? y - next : next - y;
+    y = next;
+    if (!(T(epsilon<T>) * (y < T(0) ? -y : y) < size) || (k > 1 && inside && !(size < last) && size < T(1e-3) )) {
       return y;
     }
     last = size;
@@ -153,21 +178,20 @@ template <real T>
   const T theta = T(static_cast<underlying_t<T>>(scheme.theta));
   const T now = (T(1) - theta) * film.growth(thickness, before) * time;  // growth by the state before the step
   const T weight = theta * (time / film.drag);
-  const auto solve = [&](const T& stiffness, const T& load) -> T {  // growth at the end: (load − stiffness u)/drag
+  const auto solve = [&](const T& rough) -> T {  // rough: stiffness of the asperities, where they carry
+    const T load = film.stiffness * after - rough * film.asperity_height;  // growth: (load − k u + rough u_a²/u)/ν
+    const T wedge = rough * film.asperity_height * film.asperity_height;
     if (scheme.variable == film_variable::logarithm) {
-      const T y = detail::logarithmic_growth(weight * stiffness * thickness, now + weight * (load - stiffness * thickness));
-      return thickness * exp(y);
+      const T pushed = now + weight * (load - film.stiffness * thickness + wedge / thickness);
+      return thickness *
+             exp(detail::logarithmic_growth(weight * film.stiffness * thickness, weight * (wedge / thickness), pushed));
     }
-    const T held = thickness * (T(1) + now);
-    if (!(held > T(0))) {
-      return T(0);
-    }
-    return detail::positive_root(weight * stiffness, T(1) - weight * load, held);
+    const T held = thickness * (T(1) + now) + weight * wedge;
+    return held > T(0) ? detail::positive_root(weight * film.stiffness, T(1) - weight * load, held) : T(0);
   };
-  T next = solve(film.stiffness, film.stiffness * after);
-  if (next < film.asperity_height && film.asperity_stiffness > T(0)) {
-    next = solve(film.stiffness + film.asperity_stiffness,
-                 film.stiffness * after + film.asperity_stiffness * film.asperity_height);
+  T next = solve(T(0));
+  if (!(next > film.asperity_height) && film.asperity_stiffness > T(0)) {
+    next = solve(film.asperity_stiffness);
   }
   if (!detail::positive_number(next)) {
     return detail::no_film<T>(film_status::step_too_long);
@@ -210,7 +234,7 @@ template <real T>
   const T inertia = (mass / drag) * (from.gap / time);
   approach<T> to{none, none};
   if (variable == film_variable::logarithm) {
-    const T y = detail::logarithmic_growth(inertia, push);
+    const T y = detail::logarithmic_growth(inertia, T(0), push);
     to.gap = from.gap * exp(y);
     to.rate = (from.gap / time) * expm1(y);
   } else {
