@@ -55,19 +55,25 @@ template <real T>
   return good ? bridge_status::ok : bridge_status::invalid_input;
 }
 
-/// The same for a closed form: ok, or why it has no answer. Closed forms know no overlap.
-template <real T>
-[[nodiscard]] bridge_status admit_fit(const edge<T>& e, const T& volume, double surface_tension,
-                                      double angle) noexcept {
-  if (admit_pair(e, surface_tension, angle, angle) != bridge_status::ok || !(value_of(volume) >= 0) ||
-      !(value_of(volume) < infinity<T>)) {
+/// The same for a closed form of one contact angle: ok, or why it has no answer. Closed forms know no overlap.
+/// \param outside  whether the pair and the reduced volume, where the input is any good, lie outside of its range
+template <class Law, real T>
+[[nodiscard]] bridge_status admit_fit(const Law& law, const edge<T>& e, const T& volume, bool outside) noexcept {
+  const bridge_status pair = admit_pair(e, law.surface_tension, law.contact_angle, law.contact_angle);
+  if (pair != bridge_status::ok || !(value_of(volume) >= 0) || !(value_of(volume) < infinity<T>)) {
     return bridge_status::invalid_input;
   }
   if (!(value_of(volume) > 0)) {
     return bridge_status::no_liquid;
   }
-  return value_of(e.gap) < 0 ? bridge_status::not_covered : bridge_status::ok;
+  if (value_of(e.gap) < 0 || outside) {
+    return bridge_status::not_covered;
+  }
+  return value_of(e.gap) > law.rupture.gap(e, volume, law.contact_angle) ? bridge_status::ruptured : bridge_status::ok;
 }
+
+/// The largest contact angle of the fits, 50°, however it was rounded.
+inline constexpr double largest_fitted_angle = 50 * pi<double> / 180 * (1 + 1e-12);
 
 /// Radius of the equal spheres whose gap opens as that of the pair does at its narrowest: 2 R₁ R₂ / (R₁ + R₂); 2 R₁
 /// before a plane. \par Source  Derjaguin 1934, Kolloid-Z. 69, 155

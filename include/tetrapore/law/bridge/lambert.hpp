@@ -36,16 +36,11 @@ struct lambert {
 
   template <real T>
   [[nodiscard]] outcome<bridge_pull<T>, bridge_status> bridge(const edge<T>& e, given_volume<T> liquid) const noexcept {
-    const bridge_status first = detail::admit_fit(e, liquid.value, surface_tension, contact_angle);
-    if (first != bridge_status::ok) {
-      return detail::no_pull<T>(first);
-    }
     const T radius = detail::derjaguin_radius(e);
-    if (!detail::within(liquid.value / (radius * radius * radius), 0, 0.1)) {
-      return detail::no_pull<T>(bridge_status::not_covered);
-    }
-    if (value_of(e.gap) > rupture.gap(e, liquid.value, contact_angle)) {
-      return detail::no_pull<T>(bridge_status::ruptured);
+    const bool outside = !detail::within(liquid.value / (radius * radius * radius), 0, 0.1);
+    const bridge_status found = detail::admit_fit(*this, e, liquid.value, outside);
+    if (found != bridge_status::ok) {
+      return detail::no_pull<T>(found);
     }
     const T twice = T(2) * detail::immersion(e.gap, liquid.value, radius);
     const T scale = detail::fit_number<T>(2 * pi<double> * surface_tension * std::cos(contact_angle));

@@ -18,11 +18,9 @@ struct mikami {
 
   template <real T>
   [[nodiscard]] outcome<bridge_pull<T>, bridge_status> bridge(const edge<T>& e, given_volume<T> liquid) const noexcept {
-    const bridge_status first = detail::admit_fit(e, liquid.value, surface_tension, 0.0);
-    if (first == bridge_status::ok && !detail::equal_radii(e)) {
-      return detail::no_pull<T>(bridge_status::not_covered);
-    }
-    return soulie<Rupture>{surface_tension, 0.0, rupture}.bridge(e, liquid);
+    const auto answer = soulie<Rupture>{surface_tension, 0.0, rupture}.bridge(e, liquid);
+    const bool found = answer.ok() || answer.reason == bridge_status::ruptured;
+    return found && !detail::equal_radii(e) ? detail::no_pull<T>(bridge_status::not_covered) : answer;
   }
 };
 static_assert(bridge_law<mikami<>>);

@@ -3,20 +3,10 @@
 
 #include "tetrapore/law/bridge/closed_form.hpp"
 
-/// \file
-/// Gaps at which a bridge of given volume breaks, by fits.
+/// \file Gaps at which a bridge of given volume breaks, by fits: plain numbers, for they are compared and never
+/// differentiated.
 
 namespace tetrapore::inline TETRAPORE_ABI {
-
-namespace detail {
-
-/// Cube root of a volume, as a plain number: a rupture gap is compared, never differentiated.
-template <real T>
-[[nodiscard]] underlying_t<T> length_of(const T& volume) noexcept {
-  return std::cbrt(value_of(volume));
-}
-
-}  // namespace detail
 
 /// (1 + θ/2) V^⅓.
 /// \par Units   volume [m³], contact angle [rad], result [m]
@@ -27,7 +17,7 @@ template <real T>
 struct lian_rupture {
   template <real T>
   [[nodiscard]] underlying_t<T> gap(const edge<T>&, const T& volume, double contact_angle) const noexcept {
-    return static_cast<underlying_t<T>>(1 + contact_angle / 2) * detail::length_of(volume);
+    return static_cast<underlying_t<T>>(1 + contact_angle / 2) * std::cbrt(value_of(volume));
   }
 };
 static_assert(rupture_rule<lian_rupture>);
@@ -48,7 +38,7 @@ struct willett_rupture {
     const number b = value_of(e.radius2);
     const number q = a < b ? a / b : b / a;
     const number radius = value_of(detail::derjaguin_radius(e));
-    const number v = detail::length_of(volume) / radius;
+    const number v = std::cbrt(value_of(volume)) / radius;
     return radius * (1 + static_cast<number>(contact_angle / 4) * (1 + q)) *
            (v + (q / 2 - static_cast<number>(0.4)) * v * v);
   }

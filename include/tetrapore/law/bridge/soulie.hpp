@@ -25,18 +25,13 @@ struct soulie {
     using std::exp;
     using std::log;
     using std::sqrt;
-    const bridge_status first = detail::admit_fit(e, liquid.value, surface_tension, contact_angle);
-    if (first != bridge_status::ok) {
-      return detail::no_pull<T>(first);
-    }
     const T radius = e.radius1 < e.radius2 ? e.radius2 : e.radius1;
     const T reduced = liquid.value / (radius * radius * radius);
-    if (e.with_plane() || contact_angle > largest_angle || !detail::within(reduced, 1e-4, 0.1) ||
-        !detail::within(e.radius1 / e.radius2, 0.5, 2)) {
-      return detail::no_pull<T>(bridge_status::not_covered);
-    }
-    if (value_of(e.gap) > rupture.gap(e, liquid.value, contact_angle)) {
-      return detail::no_pull<T>(bridge_status::ruptured);
+    const bool outside = e.with_plane() || contact_angle > detail::largest_fitted_angle ||
+                         !detail::within(reduced, 1e-4, 0.1) || !detail::within(e.radius1 / e.radius2, 0.5, 2);
+    const bridge_status found = detail::admit_fit(*this, e, liquid.value, outside);
+    if (found != bridge_status::ok) {
+      return detail::no_pull<T>(found);
     }
     const auto number = [](double x) { return detail::fit_number<T>(x); };
     const double square = contact_angle * contact_angle;
@@ -47,9 +42,6 @@ struct soulie {
     const T scale = number(pi<double> * surface_tension);
     return {{scale * sqrt(e.radius1 * e.radius2) * (c + exp(a * e.gap / radius + b))}, bridge_status::ok};
   }
-
- private:
-  static constexpr double largest_angle = 50 * pi<double> / 180 * (1 + 1e-12);
 };
 static_assert(bridge_law<soulie<>>);
 

@@ -23,22 +23,17 @@ struct weigert_ripperger {
   template <real T>
   [[nodiscard]] outcome<bridge_pull<T>, bridge_status> bridge(const edge<T>& e, given_volume<T> liquid) const noexcept {
     using std::sqrt;
-    const bridge_status first = detail::admit_fit(e, liquid.value, surface_tension, contact_angle);
-    if (first != bridge_status::ok) {
-      return detail::no_pull<T>(first);
-    }
     const T radius = e.radius1;
     const T reduced = liquid.value / (radius * radius * radius);
     const T gap = e.gap / radius;
     const double sine = std::sin(contact_angle);
     const double cosine = std::cos(contact_angle);
     const T square = sqrt(reduced / (detail::fit_number<T>(0.96 * (1 + 1.1 * sine)) * (T(1) + T(3) * gap)));  // sin² β
-    if (!detail::equal_radii(e) || contact_angle > largest_angle || gap > detail::fit_number<T>(0.2) ||
-        !detail::within(square, least_square, largest_square)) {
-      return detail::no_pull<T>(bridge_status::not_covered);
-    }
-    if (value_of(e.gap) > rupture.gap(e, liquid.value, contact_angle)) {
-      return detail::no_pull<T>(bridge_status::ruptured);
+    const bool outside = !detail::equal_radii(e) || contact_angle > detail::largest_fitted_angle ||
+                         gap > detail::fit_number<T>(0.2) || !detail::within(square, least_square, largest_square);
+    const bridge_status found = detail::admit_fit(*this, e, liquid.value, outside);
+    if (found != bridge_status::ok) {
+      return detail::no_pull<T>(found);
     }
     const T s = sqrt(square);
     const T c = sqrt(T(1) - square);
@@ -51,7 +46,6 @@ struct weigert_ripperger {
   }
 
  private:
-  static constexpr double largest_angle = 50 * pi<double> / 180 * (1 + 1e-12);
   static constexpr double least_square = 0.0301536896;    // sin² 10°
   static constexpr double largest_square = 0.4131759112;  // sin² 40°
 };

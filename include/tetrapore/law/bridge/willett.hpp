@@ -23,18 +23,17 @@ struct willett {
     using std::exp;
     using std::log;
     using std::sqrt;
-    const bridge_status first = detail::admit_fit(e, liquid.value, surface_tension, contact_angle);
-    if (first != bridge_status::ok) {
-      return detail::no_pull<T>(first);
-    }
     const T radius = detail::derjaguin_radius(e);
     const T reduced = liquid.value / (radius * radius * radius);
-    if (e.with_plane() || contact_angle > largest_angle || !detail::within(reduced, 1e-3, 0.1)) {
-      return detail::no_pull<T>(bridge_status::not_covered);
+    const bool outside =
+        e.with_plane() || contact_angle > detail::largest_fitted_angle || !detail::within(reduced, 1e-3, 0.1);
+    const bridge_status found = detail::admit_fit(*this, e, liquid.value, outside);
+    if (found != bridge_status::ok) {
+      return detail::no_pull<T>(found);
     }
-    if (value_of(e.gap) > rupture.gap(e, liquid.value, contact_angle)) {
-      return detail::no_pull<T>(bridge_status::ruptured);
-    }
+    const auto f = [this](double a, double b, double c) {  // a power's coefficient, itself a polynomial in the angle
+      return detail::fit_number<T>(a + (b + c * contact_angle) * contact_angle);
+    };
     const T l = log(reduced);
     T exponent = f(-0.44507, 0.050832, -1.1466) +
                  (f(-0.1119, -0.000411, -0.1490) +
@@ -54,28 +53,6 @@ struct willett {
     const T scale = detail::fit_number<T>(2 * pi<double> * surface_tension);
     return {{scale * radius * exp(exponent)}, bridge_status::ok};
   }
-
- private:
-  static constexpr double largest_angle = 50 * pi<double> / 180 * (1 + 1e-12);  // the paper's, whichever way rounded
-
-  /// The coefficient of a power of ln(V/R³), itself a polynomial in the contact angle.
-  template <std::floating_point N>
-  [[nodiscard]] constexpr N at_angle(N a, N b, N c) const noexcept {
-    const N angle = static_cast<N>(contact_angle);
-    return a + (b + c * angle) * angle;
-  }
-  struct coefficient {
-    double value;
-    template <real T>
-    [[nodiscard]] friend T operator*(coefficient c, const T& x) noexcept {
-      return detail::fit_number<T>(c.value) * x;
-    }
-    template <real T>
-    [[nodiscard]] friend T operator+(coefficient c, const T& x) noexcept {
-      return detail::fit_number<T>(c.value) + x;
-    }
-  };
-  [[nodiscard]] constexpr coefficient f(double a, double b, double c) const noexcept { return {at_angle(a, b, c)}; }
 };
 static_assert(bridge_law<willett<>>);
 
@@ -95,25 +72,18 @@ struct willett_small {
   template <real T>
   [[nodiscard]] outcome<bridge_pull<T>, bridge_status> bridge(const edge<T>& e, given_volume<T> liquid) const noexcept {
     using std::sqrt;
-    const bridge_status first = detail::admit_fit(e, liquid.value, surface_tension, contact_angle);
-    if (first != bridge_status::ok) {
-      return detail::no_pull<T>(first);
-    }
     const T radius = detail::derjaguin_radius(e);
     const T reduced = liquid.value / (radius * radius * radius);
-    if (e.with_plane() || contact_angle > largest_angle || !detail::within(reduced, 0, 0.1)) {
-      return detail::no_pull<T>(bridge_status::not_covered);
-    }
-    if (value_of(e.gap) > rupture.gap(e, liquid.value, contact_angle)) {
-      return detail::no_pull<T>(bridge_status::ruptured);
+    const bool outside =
+        e.with_plane() || contact_angle > detail::largest_fitted_angle || !detail::within(reduced, 0, 0.1);
+    const bridge_status found = detail::admit_fit(*this, e, liquid.value, outside);
+    if (found != bridge_status::ok) {
+      return detail::no_pull<T>(found);
     }
     const T s = e.gap / (T(2) * sqrt(liquid.value / radius));
     const T scale = detail::fit_number<T>(2 * pi<double> * surface_tension * std::cos(contact_angle));
     return {{scale * radius / (T(1) + (detail::fit_number<T>(2.1) + T(10) * s) * s)}, bridge_status::ok};
   }
-
- private:
-  static constexpr double largest_angle = 50 * pi<double> / 180 * (1 + 1e-12);
 };
 static_assert(bridge_law<willett_small<>>);
 
