@@ -260,7 +260,8 @@ template <int N, bool Equal, std::floating_point T>
     const bool passed = sign * (next.reach - target) >= T(0);
     const bool folded = !(sign * next.slope > T(0));
     // a step that leaps to another curve arrives where the number of negative directions does not fit
-    if (!Equal && next.index != (folded ? 1 : 0)) {
+    const bool sliding = Equal && !(hold(next) > T(0));
+    if (!sliding && next.index != (folded ? 1 : 0)) {
       h *= T(0.4);
       if (h < T(1e-7)) {
         trip.end = from;
