@@ -112,6 +112,14 @@ template <real T>
   return flat * cos(angle) + cross(to, flat) * sin(angle);
 }
 
+/// The normal half way through a step.
+template <real T>
+[[nodiscard]] vec3<T> halfway(const vec3<T>& from, const vec3<T>& to) noexcept {
+  const vec3<T> sum = from + to;
+  const T size = norm(sum);
+  return size > T(0) ? sum / size : to;
+}
+
 /// A spring in series with a dashpot and a friction that acts beside it.
 template <real T>
 struct slider {

@@ -41,11 +41,13 @@ struct dry_contact {
     const T half = e.gap * T(0.5);
     const T arm1 = e.radius1 + half;
     const T arm2 = e.with_plane() ? half : e.radius2 + half;
-    const relative_motion<T> v = relative_motion_of(m, e.normal, arm1, arm2);
+    const vec3<T> middle = detail::halfway(s.normal, e.normal);
+    relative_motion<T> v = relative_motion_of(m, middle, arm1, arm2);
+    v.slip = detail::turned(v.slip, middle, e.normal, T(0));
     contact_forces<T> answer;
     answer.pull = number(normal_stiffness) * e.gap;
     answer.asperities = -answer.pull;
-    const vec3<T> carried = detail::turned(s.shear, s.normal, e.normal, dot(m.spin1 + m.spin2, e.normal) * time * T(0.5));
+    const vec3<T> carried = detail::turned(s.shear, s.normal, e.normal, dot(m.spin1 + m.spin2, middle) * time * T(0.5));
     const T spring = number(shear_stiffness) * time;
     const detail::slider<T> sliding =
         detail::slide(carried + v.slip * spring, number(friction) * answer.asperities, spring, T(0));
