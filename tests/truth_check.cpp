@@ -21,7 +21,8 @@ namespace {
 
 std::vector<truth_check::known_table> known_tables() {
   std::vector<truth_check::known_table> all;
-  for (const auto& family : {truth_check::entry_tables(), truth_check::bridge_tables(), truth_check::lubrication_tables()}) {
+  for (const auto& family :
+       {truth_check::entry_tables(), truth_check::bridge_tables(), truth_check::lubrication_tables()}) {
     all.insert(all.end(), family.begin(), family.end());
   }
   return all;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "support/bridge_tables.hpp"
-#include "support/options.hpp"
+#include "bridge_tables.hpp"
+#include "options.hpp"
 
 #include "tetrapore/law/bridge/lambert.hpp"
 #include "tetrapore/law/bridge/mikami.hpp"
@@ -41,12 +41,12 @@ struct bridge_answer {
 };
 
 using bridge_law_of_the_job =
-    std::variant<tp::young_laplace<>, tabulated_pairs, tp::toroid<>, tp::willett<>, tp::willett_small<>, tp::lambert<>, tp::rabinovich<>,
-                 tp::soulie<>, tp::weigert_ripperger<>, tp::mikami<>>;
+    std::variant<tp::young_laplace<>, tabulated_pairs, tp::toroid<>, tp::willett<>, tp::willett_small<>, tp::lambert<>,
+                 tp::rabinovich<>, tp::soulie<>, tp::weigert_ripperger<>, tp::mikami<>>;
 
 inline constexpr std::array<const char*, std::variant_size_v<bridge_law_of_the_job>> bridge_laws{
-    "exact",      "table",  "toroid",            "willett", "willett_small", "lambert",
-    "rabinovich", "soulie", "weigert_ripperger", "mikami"};
+    "exact",   "table",      "toroid", "willett",           "willett_small",
+    "lambert", "rabinovich", "soulie", "weigert_ripperger", "mikami"};
 
 [[nodiscard]] inline std::string bridge_law_names() {
   std::string all;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "support/bridge_choices.hpp"
+#include "bridge_choices.hpp"
 
 #include <cmath>
 #include <complex>
@@ -17,7 +17,7 @@ namespace support {
 /// Points (x, r) of an outline: x counts along the axis, from the surface of the first grain.
 using outline = std::vector<tp::vec2<double>>;
 
-inline constexpr std::size_t outline_points = 9;
+inline constexpr std::size_t outline_points = 9;  ///< enough for a picture
 
 /// Where a meniscus meets a surface. With the angle φ of its slope, walking from the first surface to the second,
 /// r exp(iφ).
@@ -44,7 +44,8 @@ struct contact_point {
 
 /// The curve of constant mean curvature between two contacts: with z = r exp(iφ) and k half that curvature, 1 + 2kz goes
 /// round a circle, 2ks of its angle for an arc length s.
-[[nodiscard]] inline outline constant_curvature(const contact_point& from, const contact_point& to, double k) {
+[[nodiscard]] inline outline constant_curvature(const contact_point& from, const contact_point& to, double k,
+                                                std::size_t count = outline_points) {
   const std::complex<double> z1 = from.slope;
   const std::complex<double> radius = 1.0 + 2 * k * z1;
   const std::complex<double> step = (to.slope - z1) / radius;  // (exp(2ikL) − 1)/2k
@@ -67,9 +68,9 @@ struct contact_point {
   };
   constexpr int pieces = 16;  // Simpson's rule from point to point
   outline points{{from.along, std::abs(z1)}};
-  const double apart = length / (outline_points - 1);
+  const double apart = length / static_cast<double>(count - 1);
   double x = from.along;
-  for (std::size_t p = 1; p < outline_points; ++p) {
+  for (std::size_t p = 1; p < count; ++p) {
     double sum = 0;
     for (int i = 0; i <= pieces; ++i) {
       const auto z = at(apart * (static_cast<double>(p - 1) + static_cast<double>(i) / pieces));
@@ -83,12 +84,13 @@ struct contact_point {
 }
 
 /// The arc of a circle between two contacts, that bends away from the axis.
-[[nodiscard]] inline outline circle(const contact_point& from, const contact_point& to, double radius) {
+[[nodiscard]] inline outline circle(const contact_point& from, const contact_point& to, double radius,
+                                    std::size_t count = outline_points) {
   const double begin = std::arg(from.slope);
   const double end = std::arg(to.slope);
   outline points;
-  for (std::size_t p = 0; p < outline_points; ++p) {
-    const double phi = begin + (end - begin) * static_cast<double>(p) / (outline_points - 1);
+  for (std::size_t p = 0; p < count; ++p) {
+    const double phi = begin + (end - begin) * static_cast<double>(p) / static_cast<double>(count - 1);
     points.push_back({from.along + radius * (std::sin(phi) - std::sin(begin)),
                       std::abs(from.slope) + radius * (std::cos(begin) - std::cos(phi))});
   }
@@ -97,22 +99,22 @@ struct contact_point {
 
 /// The outline of a bridge: its true meridian by laws that know it, else an upright cylinder of the same volume.
 template <class Law, class Given>
-[[nodiscard]] outline outline_of(const Law& law, const tp::edge<double>& e, const Given& given) {
+[[nodiscard]] outline outline_of(const Law& law, const tp::edge<double>& e, const Given& given,
+                                 std::size_t count = outline_points) {
   const auto m = law.bridge(e, given).value;
   if constexpr (requires { m.filling1; }) {
     const contact_point from = first_contact(e, e.radius1 * std::sin(m.filling1), m.filling1, law.contact_angle1);
     const contact_point to = second_contact(e, second_contact_radius(e, m), m.filling2, law.contact_angle2);
     if constexpr (requires { m.arc; }) {
-      return circle(from, to, m.arc);
+      return circle(from, to, m.arc, count);
     } else {
-      return constant_curvature(from, to, m.suction / (2 * law.surface_tension));
+      return constant_curvature(from, to, m.suction / (2 * law.surface_tension), count);
     }
   } else {
     const double radius = detail::cylinder_radius(e, given.value);
     const auto sink = [radius](double r) {  // of the rim into a surface
-      return r < std::numeric_limits<double>::infinity()
-                 ? radius * radius / (r + std::sqrt(r * r - radius * radius))
-                 : 0.0;
+      return r < std::numeric_limits<double>::infinity() ? radius * radius / (r + std::sqrt(r * r - radius * radius))
+                                                         : 0.0;
     };
     return {{-sink(e.radius1), radius}, {e.gap + sink(e.radius2), radius}};
   }

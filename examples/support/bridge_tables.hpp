@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "support/options.hpp"
+#include "options.hpp"
 
 #include "tetrapore/law/bridge/table.hpp"
 #include "tetrapore/law/bridge/young_laplace.hpp"

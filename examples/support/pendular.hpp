@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "support/bridge_choices.hpp"
-#include "support/pendular_job.hpp"
-#include "support/stopwatch.hpp"
+#include "bridge_choices.hpp"
+#include "stopwatch.hpp"
 
 #include "tetrapore/geometry/ball_volume.hpp"
 #include "tetrapore/packing/close_edges.hpp"
@@ -13,6 +12,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <numbers>
 #include <span>
 #include <vector>
@@ -22,15 +23,18 @@
 
 namespace support {
 
+/// What all bridges have in common at a step.
+enum class control : std::uint8_t { suction, volume };
+
 inline constexpr std::size_t bridge_status_count = 8;
 
 /// What all bridges of one step come to.
 struct pendular_state {
   double held = 0;                                       ///< suction [Pa] or volume of a bridge [m³]
   std::array<std::size_t, bridge_status_count> count{};  ///< by status
-  std::size_t overlapping = 0;     ///< bridges that touch another one
-  double liquid_volume = 0;        ///< [m³], as if bridges did not touch
-  double mean_force = 0;           ///< [N]
+  std::size_t overlapping = 0;                           ///< bridges that touch another one
+  double liquid_volume = 0;                              ///< [m³], as if bridges did not touch
+  double mean_force = 0;                                 ///< [N]
   std::array<double, 6> stress{};  ///< (1/V) Σ F n ⊗ l: xx, yy, zz, yz, xz, xy [Pa], positive where bridges pull
   double rumpf = 0;                ///< strength by Rumpf's formula [Pa]
 
@@ -152,15 +156,9 @@ template <class Law, class Given>
 
 }  // namespace detail
 
-/// The law of the job, or another one for its material.
-[[nodiscard]] inline bridge_law_of_the_job law_of(const pendular_job& job, const std::string& name) {
-  return bridge_law_named(name, job.surface_tension, job.contact_angle * std::numbers::pi / 180);
-}
-
-/// The pairs on which bridges can hang in any step: the first step is the wettest. Tables answer for no pair before they
-/// are made: the exact law speaks for them.
-[[nodiscard]] inline pendular_scene make_scene(tp::packing packing, const pendular_job& job) {
-  const bridge_law_of_the_job law = law_of(job, job.law == "table" ? "exact" : job.law);
+/// The pairs on which bridges can hang from the first step on, the wettest.
+[[nodiscard]] inline pendular_scene make_scene(tp::packing packing, const bridge_law_of_the_job& law, control held,
+                                               double first) {
   pendular_scene scene;
   scene.packing = std::move(packing);
   scene.region = domain_of(scene.packing);
@@ -168,17 +166,11 @@ template <class Law, class Given>
   const tp::radius_range radii = tp::radii_of(scene.packing.grains);
   scene.reach = std::visit(
       [&]<class Law>(const Law& l) {
-        return with_given<Law>(job.held, job.steps.front(),
-                                       [&](const auto& given) { return detail::reach_of(l, radii, given); });
+        return with_given<Law>(held, first, [&](const auto& given) { return detail::reach_of(l, radii, given); });
       },
       law);
   scene.pairs = tp::close_edges(scene.packing.grains, scene.region, scene.reach);
   return scene;
-}
-
-/// The tables of a job with the law `table`.
-[[nodiscard]] inline bridge_tables make_tables(const pendular_scene& scene, const pendular_job& job) {
-  return {std::get<tp::young_laplace<>>(law_of(job, "exact")), scene.pairs, job.steps.back(), job.steps.front()};
 }
 
 /// The bridge of every pair.

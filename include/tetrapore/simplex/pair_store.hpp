@@ -230,7 +230,8 @@ class pair_store {
 
   std::vector<pair_key> keys_;
   std::vector<State> states_;
-  std::vector<std::uint32_t> slots_;  ///< place in the arrays, by hash; a power of two of them, at most half of them used
+  std::vector<std::uint32_t>
+      slots_;  ///< place in the arrays, by hash; a power of two of them, at most half of them used
 };
 
 }  // namespace tetrapore::inline TETRAPORE_ABI

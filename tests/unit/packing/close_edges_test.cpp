@@ -12,7 +12,8 @@ using namespace tetrapore;
 namespace {
 
 /// Every pair by brute force: all images within two periods.
-std::map<pair_key, close_edge> all_pairs(const std::vector<sphere<double>>& grains, const domain& region, double reach) {
+std::map<pair_key, close_edge> all_pairs(const std::vector<sphere<double>>& grains, const domain& region,
+                                         double reach) {
   std::map<pair_key, close_edge> found;
   for (std::size_t i = 0; i < grains.size(); ++i) {
     for (std::size_t j = i; j < grains.size(); ++j) {
@@ -80,8 +81,7 @@ TEST_CASE("a pair of a large and a small grain is named from the smaller id, whi
   for (const bool large_first : {true, false}) {
     const sphere<double> large{{0.5, 0.5, 0.5}, 0.3};
     const sphere<double> small{{0.5, 0.5, 0.85}, 0.04};
-    const std::vector<sphere<double>> grains =
-        large_first ? std::vector{large, small} : std::vector{small, large};
+    const std::vector<sphere<double>> grains = large_first ? std::vector{large, small} : std::vector{small, large};
     const auto found = close_edges(grains, unit_box(boundary::open, boundary::open, boundary::open), 0.02);
     REQUIRE(found.size() == 1);
     CHECK(found[0].key == pair_of(grain_id(0), grain_id(1)));
