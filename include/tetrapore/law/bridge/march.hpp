@@ -346,7 +346,8 @@ template <int N, bool Equal, std::floating_point T>
       const T tau = low + (high - low) * share;
       mid = along_path.template advance<N>(from, tau, &iterations);
       if (!mid.sound) {
-        return trip;
+        lost = true;
+        break;
       }
       // near enough for Newton's method, which must not pass the fold at slope² / (2 bend) from here
       const T miss = std::abs(mid.reach - target);
@@ -363,6 +364,13 @@ template <int N, bool Equal, std::floating_point T>
         high = tau;
         at_high = mid;
       }
+    }
+    if (lost) {
+      h *= T(0.4);
+      if (h < T(1e-7)) {
+        return trip;
+      }
+      continue;
     }
     trip.end = mid;
     trip.how = arrival::at_target;

@@ -114,14 +114,18 @@ inline void choose_chart(const surface_pair<T>& pair, profile<T>& u) noexcept {
   const bool between = im[0] < T(0) && im[1] < T(0);            // a neck between them
   const bool neck = !(u.k < T(0)) || (!bulge && (between || re[0] + re[1] > T(0)) && least > T(0.1) && lambda[0] > T(0) && lambda[1] > T(0) &&
                                       re[0] > T(-0.9) * p[0] && re[1] > T(-0.9) * p[1]);
+  const auto length = [&](const T& turned) {
+    return T(0.5) * (atan2(im[0], re[0]) - turned + (Equal ? T(0) : atan2(im[1], re[1]) - turned)) / u.k;
+  };
   if (neck && u.by == chart::from_contact) {
-    u.by = chart::from_extremum;
-    u.extent = (lambda[0] + lambda[1]) / (T(1) + T(0.5) * (p[0] + p[1]));
+    // the same circles may belong to a longer profile that passes a bulge
+    if (!(u.k < T(0)) || std::abs(length(T(0)) - u.extent) < T(0.1) * u.extent) {
+      u.by = chart::from_extremum;
+      u.extent = (lambda[0] + lambda[1]) / (T(1) + T(0.5) * (p[0] + p[1]));
+    }
   } else if (!neck && u.by == chart::from_extremum) {
     u.by = chart::from_contact;
-    const T turned = bulge ? pi<T> : T(0);
-    const T angle = atan2(im[0], re[0]) - turned + (Equal ? T(0) : atan2(im[1], re[1]) - turned);
-    u.extent = T(0.5) * angle / u.k;
+    u.extent = length(bulge ? pi<T> : T(0));
   }
 }
 
