@@ -283,8 +283,8 @@ requires(Octaves > 0 && GapCells > 1) class bridge_table {
   [[nodiscard]] static double upper_end(int k) noexcept { return volume_at(k, 1); }
 
   [[nodiscard]] bool alike(double other, double radius) const noexcept {
-    const double difference = other - radius * ratio_;
-    return (difference < 1e-9 * other && difference > -1e-9 * other) || (ratio_ > largest && other > largest);
+    const double expected = radius * ratio_;
+    return other == expected || (other - expected < 1e-9 * other && expected - other < 1e-9 * other);
   }
   static constexpr double largest = std::numeric_limits<double>::max();
 
