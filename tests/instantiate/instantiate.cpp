@@ -24,10 +24,12 @@
 #include "tetrapore/network/make_network.hpp"
 #include "tetrapore/network/measure.hpp"
 #include "tetrapore/network/transfer.hpp"
+#include "tetrapore/packing/close_edges.hpp"
 #include "tetrapore/packing/neighbours.hpp"
 #include "tetrapore/packing/random.hpp"
 #include "tetrapore/simplex/edge.hpp"
 #include "tetrapore/simplex/make_opening.hpp"
+#include "tetrapore/simplex/pair_store.hpp"
 #include "tetrapore/simplex/pore_volume.hpp"
 #include "tetrapore/simplex/throat_geometry.hpp"
 #include "tetrapore/tessellation/tessellation.hpp"
@@ -56,6 +58,7 @@ template struct id<throat_tag>;
 template struct id<pore_tag>;
 template struct outcome<double, entry_status>;
 template struct bracket<double>;
+template class pair_store<double>;
 template class field<quantity::extensive>;
 template class field<quantity::intensive>;
 
@@ -150,6 +153,7 @@ struct nth_throat {
 struct drop {
   void operator()(std::size_t, const outcome<double, entry_status>&) const {}
   void operator()(const close_pair&, const vec3<double>&) const {}
+  void operator()(const close_edge&) const {}
   void operator()(pore_id) const {}
 };
 struct every_pore {
@@ -176,6 +180,7 @@ template gathered_ring::growth gathered_ring::grow(const network&, std::size_t, 
 
 template void size_class_grids::for_each_pair(const drop&) const;
 template void for_each_close_pair(const packing&, double, const drop&);
+template void for_each_close_edge(std::span<const sphere<double>>, const domain&, double, const drop&);
 template void random_sequence::shuffle(std::vector<double>&) noexcept;
 
 template fixed_rule::facet_rule(const network&, const mayer_stowe_princen&, const serial&);
