@@ -58,6 +58,11 @@ struct contact_circle {
     sine = cap_sine * on.cosine + cap_cosine * on.sine;
     cosine = cap_cosine * on.cosine - cap_sine * on.sine;
   }
+
+  /// ∂λ/∂δ at constant k, over the radius of the surface.
+  [[nodiscard]] T turn(const T& k) const noexcept {
+    return (sine + T(2) * k * radius) * cap_cosine + cosine * cap_sine;
+  }
 };
 
 /// 1/√x in operations that compilers vectorise: the exponent halved in the bits, then Newton's method.
@@ -492,7 +497,7 @@ template <int N, bool Equal, std::floating_point T>
   s.by[volume_row][1] = per_volume * (v + v_by[1]);
   s.by[volume_row][2] = per_volume * v_by[2] - both * pi<T> * rise;
   const walk end = at(T(1));
-  s.turn[0] = (first.sine + T(2) * k * first.radius) * first.cap_cosine + first.cosine * first.cap_sine;
+  s.turn[0] = first.turn(k);
   s.cosine[0] = first.cosine;
   if constexpr (Equal) {
     s.match[0] = end.z.im * inverse;
@@ -517,7 +522,7 @@ template <int N, bool Equal, std::floating_point T>
     s.volume -= second.cap * inverse * inverse * inverse;
     s.by[gap_row][3] = -second_rise;
     s.by[volume_row][3] = -pi<T> * ratio * ratio * second_rise;
-    s.turn[1] = (second.sine + T(2) * k * second.radius) * second.cap_cosine + second.cosine * second.cap_sine;
+    s.turn[1] = second.turn(k);
     s.cosine[1] = second.cosine;
   }
   const T size = start.z.re * start.z.re + start.z.im * start.z.im;

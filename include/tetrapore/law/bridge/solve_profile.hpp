@@ -134,7 +134,7 @@ template <std::floating_point T>
 struct found {
   profile<T> u;
   sample<T> at;         ///< where the last step was taken from
-  T lambda;             ///< after the last step, as all below
+  T lambda;             ///< after the last step, as the volume
   T volume;
   T by_gap[4];          ///< the unknowns by gap / scale, the given value constant
   T by_value[4];        ///< the unknowns by the given value: volume / scale³ or k × scale, gap constant
@@ -296,11 +296,21 @@ template <int N, bool Equal, bool Rough = false, std::floating_point T>
         f.volume += f.at.by[volume_row][i] * step[i];
       }
       f.volume *= f.at.scale * f.at.scale * f.at.scale;
+      if (d.by == bridge_control::suction) {
+        f.u.k = d.value;
+      }
       if (f.u.by == chart::from_extremum) {
         f.lambda = f.u.extent + f.u.k * f.u.extent * f.u.extent;
-      } else {
+      }
+      if (Equal || f.u.by == chart::from_contact) {
         const contact_circle<T> first(pair.side[0], f.u.w[0]);
-        f.lambda = first.radius * first.sine + f.u.k * first.radius * first.radius;
+        if (f.u.by == chart::from_contact) {
+          f.lambda = first.radius * (first.sine + f.u.k * first.radius);
+        }
+        if constexpr (Equal) {
+          f.at.turn[0] = f.at.turn[1] = first.turn(f.u.k);
+          f.at.cosine[0] = f.at.cosine[1] = first.cosine;
+        }
       }
       f.converged = true;
       return f;

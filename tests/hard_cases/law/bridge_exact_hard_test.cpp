@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "support/bridges.hpp"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+
+using namespace bridges;
+
+namespace {
+
+constexpr vec3<double> up{0, 0, 1};
+
+auto at(double theta1, double theta2, double r2, double gap, double volume) {
+  return law_of(radians(theta1), radians(theta2)).bridge(edge<double>{1.0, r2, gap, up}, given_volume<double>{volume});
+}
+
+auto by_suction(double theta1, double theta2, double r2, double gap, double suction) {
+  return law_of(radians(theta1), radians(theta2)).bridge(edge<double>{1.0, r2, gap, up}, given_suction<double>{suction});
+}
+
+}  // namespace
+
+TEST_CASE("at contact the force of a vanishing bridge is 2πR_eff σ (cos θ₁ + cos θ₂), from V/R³ = 1e-6 to 1e-18") {
+  for (const double r2 : {1.0, 0.3, 0.01, infinity<double>}) {
+    const double effective = 1 / (1 + 1 / r2);
+    for (const double theta2 : {0.0, 40.0, 89.0}) {
+      double before = 1;
+      for (const double volume : {1e-6, 1e-9, 1e-12, 1e-18}) {
+        CAPTURE(r2);
+        CAPTURE(theta2);
+        CAPTURE(volume);
+        const auto b = at(20, theta2, r2, 0.0, volume * effective * effective * effective);
+        REQUIRE(b.ok());
+        const double limit =
+            2 * pi<double> * effective * (std::cos(radians(20)) + std::cos(radians(theta2)));
+        const double off = std::abs(b.value.force / limit - 1);
+        CHECK(off < before);
+        before = off;
+      }
+      CHECK(before < 1e-3);
+    }
+  }
+}
+
+TEST_CASE("on both sides of the fold, one part in 1e10 away: the stable bridge, and none") {
+  for (const double r2 : {1.0, 0.5, 0.01, infinity<double>}) {
+    for (const double theta : {0.0, 20.0, 50.0}) {
+      for (const double volume : {1e-9, 1e-3, 0.1}) {
+        CAPTURE(r2);
+        CAPTURE(theta);
+        CAPTURE(volume);
+        const double small = std::min(1.0, r2);
+        const double v = volume * small * small * small;
+        const auto law = law_of(radians(theta), radians(theta));
+        const auto limit = law.rupture_gap(edge<double>{1.0, r2, 0.0, up}, given_volume<double>{v});
+        REQUIRE(limit.ok());
+        const auto before = at(theta, theta, r2, limit.value.gap * (1 - 1e-10), v);
+        CHECK(before.reason == bridge_status::ok);
+        const auto after = at(theta, theta, r2, limit.value.gap * (1 + 1e-10), v);
+        CHECK(after.reason == (limit.value.end == bridge_end::fold ? bridge_status::ruptured
+                                                                   : bridge_status::lopsided));
+        CHECK(after.value.force == 0);
+        // the bridge nears the last one as the root of the distance
+        CHECK(std::abs(before.value.force / limit.value.last.force - 1) < 1e-3);
+        const double far = at(theta, theta, r2, limit.value.gap * 3, v).value.force;
+        CHECK(far == 0);
+      }
+    }
+  }
+}
+
+TEST_CASE("the fold of equal spheres at θ = 0 lies where it was found in 12 digits or more") {
+  const double anchors[][2] = {{1e-6, 0.0100379895474649},
+                               {1e-4, 0.0466534729206},
+                               {1e-3, 0.100780963518334},
+                               {1e-2, 0.219048821985724},
+                               {0.1, 0.487990153832194}};
+  for (const auto& a : anchors) {
+    const auto limit = law_of(0, 0).rupture_gap(edge<double>{1.0, 1.0, 0.0, up}, given_volume<double>{a[0]});
+    REQUIRE(limit.ok());
+    CHECK(std::abs(limit.value.gap / a[1] - 1) < 1e-11);
+  }
+}
+
+TEST_CASE("through the catenoid: suctions of ±1e-8 and 0 lie on one line") {
+  for (const double r2 : {1.0, 0.1, infinity<double>}) {
+    CAPTURE(r2);
+    const double gap = 0.05 * std::min(1.0, r2);
+    const auto b = by_suction(30, 10, r2, gap, 0.0);
+    const auto above = by_suction(30, 10, r2, gap, 1e-8);
+    const auto below = by_suction(30, 10, r2, gap, -1e-8);
+    REQUIRE(b.ok());
+    REQUIRE(above.ok());
+    REQUIRE(below.ok());
+    CHECK(b.value.suction == 0);
+    CHECK(std::abs(b.value.force - 0.5 * (above.value.force + below.value.force)) < 1e-13 * b.value.force);
+    const auto s = law_of(radians(30), radians(10)).stiffness(edge<double>{1.0, r2, gap, up}, b.value);
+    CHECK(std::abs((above.value.volume - below.value.volume) / 2e-8 / s.volume_by_suction - 1) < 1e-5);
+    // F = 2πσ r0 at the gorge of a catenoid, real or virtual
+    CHECK(std::abs(b.value.force / (2 * pi<double> * b.value.extent) - 1) < 1e-14);
+  }
+}
+
+TEST_CASE("cylinders: r = cos θ on equal spheres at p = σ/r, any gap, with force πσr and its volume") {
+  for (const double theta : {20.0, 40.0, 60.0, 85.0}) {
+    const double r = std::cos(radians(theta));
+    const double gap = 0.4 * r;
+    // δ = 90° − θ: caps of height 1 − sin θ
+    const double h = 1 - std::sin(radians(theta));
+    const double volume = pi<double> * r * r * (gap + 2 * h) - 2 * pi<double> / 3 * h * h * (3 - h);
+    CAPTURE(theta);
+    const auto b = at(theta, theta, 1.0, gap, volume);
+    REQUIRE(b.ok());
+    CHECK(std::abs(b.value.force / (pi<double> * r) - 1) < 1e-11);
+    CHECK(std::abs(b.value.suction * r + 1) < 1e-11);
+    CHECK(std::abs(b.value.neck / r - 1) < 1e-10);
+    const auto a = law_of(radians(theta), radians(theta)).areas(edge<double>{1.0, 1.0, gap, up}, b.value);
+    CHECK(std::abs(a.liquid_gas / (2 * pi<double> * r * (gap + 2 * h)) - 1) < 1e-10);
+  }
+}
+
+TEST_CASE("bulging bridges of much liquid push, and are a sphere's zone where their pressure is 2σ/r") {
+  const auto b = at(85, 85, 1.0, 0.0, 0.3);
+  REQUIRE(b.ok());
+  CHECK(b.value.force < 0);
+  CHECK(b.value.suction < 0);
+  CHECK(b.value.neck == b.value.contact1);
+}
+
+TEST_CASE("every angle up to 89.9°, any pair of angles, radii 1 : 1e-6 to a plane") {
+  for (const double r2 : {1.0, 0.01, 1e-6, 1e6, infinity<double>}) {
+    const double small = std::min(1.0, r2);
+    for (const double theta1 : {0.0, 45.0, 89.0, 89.9}) {
+      for (const double theta2 : {0.0, 60.0, 89.9}) {
+        for (const double volume : {1e-9, 1e-4}) {
+          CAPTURE(r2);
+          CAPTURE(theta1);
+          CAPTURE(theta2);
+          CAPTURE(volume);
+          const double v = volume * small * small * small;
+          const auto touching = at(theta1, theta2, r2, 0.0, v);
+          CHECK(touching.reason == bridge_status::ok);
+          const auto apart = at(theta1, theta2, r2, 0.2 * std::cbrt(v), v);
+          CHECK(apart.reason == bridge_status::ok);
+          const auto overlap = at(theta1, theta2, r2, -0.001 * std::cbrt(v), v);
+          CHECK(overlap.reason == bridge_status::ok);
+          const auto gone = at(theta1, theta2, r2, 4 * std::cbrt(v), v);
+          CHECK(gone.kind() == verdict::absent);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("no bridge at a suction: beyond the fold ruptured, too little suction flooded") {
+  CHECK(by_suction(0, 0, 1.0, 0.1, 10.0).reason == bridge_status::ruptured);
+  CHECK(by_suction(0, 0, 1.0, 0.09, 10.0).reason == bridge_status::ok);
+  CHECK(by_suction(40, 40, 1.0, 0.05, -3.0).reason == bridge_status::flooded);
+  CHECK(by_suction(40, 40, 1.0, 0.05, -3.0).kind() == verdict::refused);
+}
+
+TEST_CASE("no liquid is no bridge; bad input is refused with NaN") {
+  const double nan = quiet_nan<double>;
+  const double inf = infinity<double>;
+  CHECK(at(0, 0, 1.0, 0.1, 0.0).reason == bridge_status::no_liquid);
+  CHECK(at(0, 0, 1.0, 0.1, 0.0).value.force == 0);
+  const auto refused = [](const auto& b) {
+    CHECK(b.reason == bridge_status::invalid_input);
+    CHECK(std::isnan(b.value.force));
+  };
+  refused(at(0, 0, 1.0, 0.1, -1e-9));
+  refused(at(0, 0, 1.0, 0.1, nan));
+  refused(at(0, 0, 1.0, 0.1, inf));
+  refused(at(0, 0, 1.0, nan, 1e-3));
+  refused(at(0, 0, 1.0, inf, 1e-3));
+  refused(at(0, 0, 1.0, -1.0, 1e-3));
+  refused(at(0, 0, 0.1, -0.2, 1e-3));
+  refused(at(0, 0, 0.0, 0.1, 1e-3));
+  refused(at(0, 0, -1.0, 0.1, 1e-3));
+  refused(at(0, 0, nan, 0.1, 1e-3));
+  refused(at(90, 0, 1.0, 0.1, 1e-3));
+  refused(at(0, 91, 1.0, 0.1, 1e-3));
+  refused(at(-1, 0, 1.0, 0.1, 1e-3));
+  refused(at(nan, 0, 1.0, 0.1, 1e-3));
+  refused(by_suction(0, 0, 1.0, 0.1, nan));
+  refused(by_suction(0, 0, 1.0, 0.1, inf));
+  const edge<double> planes{inf, inf, 0.1, up};
+  refused(law_of(0, 0).bridge(planes, given_volume<double>{1e-3}));
+  const edge<double> e{1.0, 1.0, 0.01, up};
+  refused(law_of(0, 0, 0.0).bridge(e, given_volume<double>{1e-3}));
+  refused(law_of(0, 0, -1.0).bridge(e, given_volume<double>{1e-3}));
+  refused(law_of(0, 0, nan).bridge(e, given_volume<double>{1e-3}));
+  CHECK(law_of(0, 0).rupture_gap(e, given_volume<double>{-1.0}).reason == bridge_status::invalid_input);
+  CHECK(law_of(0, 0).rupture_gap(e, given_volume<double>{0.0}).reason == bridge_status::no_liquid);
+}
+
+TEST_CASE("a warm state survives another pair, another law, another control, a rupture and bad input") {
+  const auto law = law_of(0.3, 0.3);
+  young_laplace<>::warm_state<double> warm;
+  const edge<double> near{1.0, 1.0, 0.02, up};
+  const edge<double> far{1.0, 1.0, 2.0, up};
+  const edge<double> other{1.0, 0.5, 0.02, up};
+  const given_volume<double> v{1e-3};
+  const auto cold = law.bridge(near, v);
+  const auto same = [&](const auto& b, const auto& c) {
+    CHECK(b.reason == c.reason);
+    CHECK(std::abs(b.value.force - c.value.force) <= 2e-12 * std::abs(c.value.force));
+  };
+  same(law.bridge(near, v, warm), cold);
+  same(law.bridge(far, v, warm), law.bridge(far, v));
+  same(law.bridge(near, v, warm), cold);
+  same(law.bridge(other, v, warm), law.bridge(other, v));
+  same(law_of(0.5, 0.1).bridge(other, v, warm), law_of(0.5, 0.1).bridge(other, v));
+  same(law_of(0.5, 0.1, 0.072).bridge(other, v, warm), law_of(0.5, 0.1, 0.072).bridge(other, v));
+  const given_suction<double> p{3.0};
+  same(law.bridge(near, p, warm), law.bridge(near, p));
+  same(law.bridge(near, v, warm), cold);
+  CHECK(law.bridge(edge<double>{1.0, 1.0, quiet_nan<double>, up}, v, warm).reason == bridge_status::invalid_input);
+  same(law.bridge(near, v, warm), cold);
+}
+
+TEST_CASE("bridges form at contact or at a given gap and last until they rupture; shared liquid is conserved") {
+  const auto law = law_of(0.2, 0.2);
+  const given_volume<double> v{1e-3};
+  bridge_presence<double> pair{.creation_gap = 0.01};
+  const auto at_gap = [&](double gap) { return pair.bridge(law, edge<double>{1.0, 1.0, gap, up}, v).reason; };
+  CHECK(at_gap(0.05) == bridge_status::no_liquid);
+  CHECK(at_gap(0.005) == bridge_status::ok);
+  CHECK(at_gap(0.05) == bridge_status::ok);
+  CHECK(at_gap(0.5) == bridge_status::ruptured);
+  CHECK(at_gap(0.05) == bridge_status::no_liquid);
+  CHECK(at_gap(0.0) == bridge_status::ok);
+
+  const edge<double> e{1.0, 0.3, 0.01, up};
+  const auto b = law_of(0.4, 0.1).bridge(e, given_volume<double>{1e-4});
+  const auto sides = law_of(0.4, 0.1).halves(e, b.value);
+  CHECK(sides[0] > 0);
+  CHECK(sides[1] > 0);
+  CHECK(std::abs(sides[0] + sides[1] - 1e-4) < 1e-18);
+  double volumes[3] = {1e-3, 3e-3, 0};
+  const double weights[3] = {1e-3, 3e-3, 0};
+  CHECK(share_liquid(4e-4, volumes, weights, 3));
+  CHECK(volumes[0] == doctest::Approx(1.1e-3).epsilon(1e-14));
+  CHECK(volumes[1] == doctest::Approx(3.3e-3).epsilon(1e-14));
+  CHECK(volumes[2] < 1e-18);
+  CHECK(std::abs(volumes[0] + volumes[1] + volumes[2] - 4.4e-3) < 1e-18);
+  double empty[2] = {0, 0};
+  CHECK(share_liquid(1.0, empty, empty, 2));
+  CHECK(empty[0] + empty[1] == 1.0);
+  CHECK_FALSE(share_liquid(1.0, empty, empty, 0));
+}
