@@ -31,7 +31,9 @@ class random_pairs {
   [[nodiscard]] double between(double low, double high) {
     return low + (high - low) * static_cast<double>(engine_() >> 11U) * 0x1p-53;
   }
-  [[nodiscard]] double between_logs(double low, double high) { return std::exp(between(std::log(low), std::log(high))); }
+  [[nodiscard]] double between_logs(double low, double high) {
+    return std::exp(between(std::log(low), std::log(high)));
+  }
   [[nodiscard]] vec3<double> vector() { return {between(-1, 1), between(-1, 1), between(-1, 1)}; }
   [[nodiscard]] vec3<double> direction() {
     for (;;) {

@@ -101,8 +101,7 @@ class multipoles {
                   a * (4 * a * a - 1) / (2 * (a + 1) * (2 * b + 1)) * at(v_, s, q - s - 2, p - n + 1) -
                   2 * (4 * a * a - 1) / (3 * (a + 1)) * at(q_, s, q - s - 1, p - n + 1));
       lower += c * below;
-      turn += c * (b / (a + 1) * at(q_, s, q - s - 1, p - n) -
-                   3 / (2 * a * b * (a + 1)) * at(p_, s, q - s, p - n));
+      turn += c * (b / (a + 1) * at(q_, s, q - s - 1, p - n) - 3 / (2 * a * b * (a + 1)) * at(p_, s, q - s, p - n));
     }
     p_[place(n, p, q)] = sum;
     v_[place(n, p, q)] = sum + 2 * a / ((a + 1) * (2 * a + 3)) * lower;
@@ -113,9 +112,9 @@ class multipoles {
   std::vector<number> p_, v_, q_, binomial_;
 };
 
-/// Σ c_m q^m over even or odd m, known to an order and continued by the singular functions of contact: 1/w, ln w, w ln w,
-/// w² ln w with w = 1 − q² (odd m: q/w and w^k ln((1 − q)/(1 + q))). The first three factors are known; the fourth is the
-/// mean of what is left of the last coefficients, which oscillates and falls as m⁻³. So the sum is good to about
+/// Σ c_m q^m over even or odd m, known to an order and continued by the singular functions of contact: 1/w, ln w, w ln
+/// w, w² ln w with w = 1 − q² (odd m: q/w and w^k ln((1 − q)/(1 + q))). The first three factors are known; the fourth
+/// is the mean of what is left of the last coefficients, which oscillates and falls as m⁻³. So the sum is good to about
 /// 1/order³ at contact, and to all digits where the gap is above 30/order of the mean radius.
 class continued_series {
  public:

@@ -22,8 +22,8 @@ struct flight {
   double rate, stored, dissipated, deepest, work;
 };
 
-/// Two grains fly at each other from a gap, and back to it or to rest: symplectic Euler for them, the law's step for the
-/// film.
+/// Two grains fly at each other from a gap, and back to it or to rest: symplectic Euler for them, the law's step for
+/// the film.
 flight collide(const wet_contact<>& law, double mass, double gap, double rate, double time, int steps) {
   edge<double> e{radius, radius, gap, up};
   auto state = law.start(e);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Closed forms: the singular parts of Jeffrey & Onishi 1984 put together by hand, and exact solutions of thinning films.
+// Closed forms: the singular parts of Jeffrey & Onishi 1984 put together by hand,
+// and exact solutions of thinning films.
 
 #include "tetrapore/law/lubrication.hpp"
 
@@ -108,8 +109,8 @@ TEST_CASE("a film under a constant gap follows the logistic curve, each scheme t
   for (const double gap : {0.5, -0.4, 0.0}) {
     const double u0 = 0.2;
     const double end = 1.3;
-    const double exact = gap == 0 ? u0 / (1 + 3 * u0 * end / 2)
-                                  : gap / (1 + (gap / u0 - 1) * std::exp(-3 * gap * end / 2));
+    const double exact =
+        gap == 0 ? u0 / (1 + 3 * u0 * end / 2) : gap / (1 + (gap / u0 - 1) * std::exp(-3 * gap * end / 2));
     const auto held = [gap](double) { return gap; };
     for (const film_scheme& s : first_order()) {
       const double coarse = stepped(film, u0, end, 500, s, held) - exact;

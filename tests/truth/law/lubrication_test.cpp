@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lubrication against exact solutions: the table of two spheres (57 pairs of radii and gaps, 17 digits), the series that
-// the fits were made from at pairs they have not seen, and Brenner's sphere and plane.
+// Lubrication against exact solutions: the table of two spheres (57 pairs of
+// radii and gaps, 17 digits), the series that the fits were made from at pairs they have not seen, and Brenner's sphere
+// and plane.
 
 #include "tetrapore/law/lubrication.hpp"
 
@@ -40,7 +41,8 @@ std::vector<table_row> rows() {
   std::vector<table_row> all;
   for (std::size_t k = 0; k < table.size(); ++k) {
     const auto at = [&](const char* name) { return table.precise(k, name); };
-    all.push_back({table.number(k, "lambda"), table.number(k, "h_over_a1"),
+    all.push_back({table.number(k, "lambda"),
+                   table.number(k, "h_over_a1"),
                    {at("XA11"), at("XA12"), at("XA22"), at("XC11"), at("XC12"), at("XC22"), at("YA11"), at("YA12"),
                     at("YA22"), at("YB11"), at("YB12"), at("YB21"), at("YB22"), at("YC11"), at("YC12"), at("YC22")}});
   }
@@ -100,7 +102,8 @@ TEST_CASE("the table, every row in reach: the resolved law is within 1e-3, and w
     }
   }
   CHECK(answered == 44);
-  MESSAGE("squeeze ", worst[0], ", shear ", worst[1], ", coupling ", worst[2], ", roll ", worst[3], ", twist ", worst[4]);
+  MESSAGE("squeeze ", worst[0], ", shear ", worst[1], ", coupling ", worst[2], ", roll ", worst[3], ", twist ",
+          worst[4]);
   const std::array<double, 5> allowed{9e-6, 7e-4, 6e-4, 5e-4, 1e-3};
   const std::array<double, 5> allowed_near{3e-6, 8e-5, 3e-4, 3e-4, 2e-4};
   for (std::size_t k = 0; k < 5; ++k) {
@@ -194,7 +197,8 @@ TEST_CASE("the series of the fits agrees with the table, and the fits with the s
       }
     }
   }
-  MESSAGE("squeeze ", worst[0], ", shear ", worst[1], ", coupling ", worst[2], ", roll ", worst[3], ", twist ", worst[4]);
+  MESSAGE("squeeze ", worst[0], ", shear ", worst[1], ", coupling ", worst[2], ", roll ", worst[3], ", twist ",
+          worst[4]);
   const std::array<double, 5> allowed{9e-6, 7e-4, 6e-4, 5e-4, 1e-3};
   for (std::size_t k = 0; k < 5; ++k) {
     CHECK(worst[k] < allowed[k]);

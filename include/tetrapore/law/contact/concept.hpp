@@ -46,14 +46,14 @@ static_assert(status<contact_status>);
 /// \par Units  [N], [N m], [m], [J]
 template <real T>
 struct contact_forces {
-  pair_forces<T> on{};  ///< both grains
-  T pull{};             ///< normal force, positive where it pulls the grains together
-  vec3<T> shear{};      ///< tangential force on grain 1
-  T asperities{};       ///< what solid touching solid carries of the normal force (≥ 0)
-  T thickness{};        ///< of the film
+  pair_forces<T> on{};   ///< both grains
+  T pull{};              ///< normal force, positive where it pulls the grains together
+  vec3<T> shear{};       ///< tangential force on grain 1
+  T asperities{};        ///< what solid touching solid carries of the normal force (≥ 0)
+  T thickness{};         ///< of the film
   bool sliding = false;  ///< whether the surfaces slip on each other
-  T stored{};           ///< elastic energy
-  T dissipated{};       ///< over the step
+  T stored{};            ///< elastic energy
+  T dissipated{};        ///< over the step
 };
 
 /// The contact of a pair.
@@ -64,13 +64,11 @@ struct contact_forces {
 /// the state is kept.
 /// Models: wet_contact<Film>, dry_contact.
 template <class L, class T = double>
-concept contact_law = real<T> && std::copyable<L> &&
-                      requires(const L l, const edge<T> e, const pair_motion<T> m, const T time,
-                               decltype(l.start(e)) state) {
-                        {
-                          l.step(e, m, time, state)
-                        } noexcept -> std::same_as<outcome<contact_forces<T>, contact_status>>;
-                      };
+concept contact_law =
+    real<T> && std::copyable<L> &&
+    requires(const L l, const edge<T> e, const pair_motion<T> m, const T time, decltype(l.start(e)) state) {
+      { l.step(e, m, time, state) } noexcept -> std::same_as<outcome<contact_forces<T>, contact_status>>;
+    };
 
 namespace detail {
 

@@ -28,8 +28,8 @@ struct dry_contact {
   }
 
   template <real T>
-  [[nodiscard]] outcome<contact_forces<T>, contact_status> step(const edge<T>& e, const pair_motion<T>& m, const T& time,
-                                                                state<T>& s) const noexcept {
+  [[nodiscard]] outcome<contact_forces<T>, contact_status> step(const edge<T>& e, const pair_motion<T>& m,
+                                                                const T& time, state<T>& s) const noexcept {
     const auto number = [](double x) { return T(static_cast<underlying_t<T>>(x)); };
     if (detail::admit_contact(e, time, {normal_stiffness, shear_stiffness}, friction) != contact_status::ok) {
       return detail::no_contact_forces<T>(contact_status::invalid_input);
@@ -55,7 +55,8 @@ struct dry_contact {
     answer.sliding = sliding.slides;
     answer.on = detail::forces_of(e.normal, arm1, arm2, answer.pull, answer.shear, vec3<T>{}, T(0));
     answer.dissipated = dot(answer.shear, sliding.rate) * time;
-    answer.stored = (answer.pull * answer.pull / number(normal_stiffness) + norm2(answer.shear) / number(shear_stiffness)) * T(0.5);
+    answer.stored =
+        (answer.pull * answer.pull / number(normal_stiffness) + norm2(answer.shear) / number(shear_stiffness)) * T(0.5);
     s = {answer.shear, e.normal};
     return {answer, contact_status::ok};
   }

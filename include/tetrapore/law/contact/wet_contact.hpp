@@ -57,8 +57,8 @@ struct wet_contact {
   /// One step. The edge is that of the end of the step, the motion the mean over it.
   template <real T>
     requires lubrication_law<Film, T>
-  [[nodiscard]] outcome<contact_forces<T>, contact_status> step(const edge<T>& e, const pair_motion<T>& m, const T& time,
-                                                                state<T>& s) const noexcept {
+  [[nodiscard]] outcome<contact_forces<T>, contact_status> step(const edge<T>& e, const pair_motion<T>& m,
+                                                                const T& time, state<T>& s) const noexcept {
     using std::sqrt;
     const auto number = [](double x) { return T(static_cast<underlying_t<T>>(x)); };
     const contact_status first = detail::admit_contact(e, time, {normal_stiffness, shear_stiffness}, friction);
@@ -71,8 +71,8 @@ struct wet_contact {
     if (!before.ok()) {
       return refused(before.reason, e, s);
     }
-    const elastic_film<T> squeezed{before.value.squeeze * s.thickness, number(normal_stiffness), number(asperity_height),
-                                   number(asperity_stiffness)};
+    const elastic_film<T> squeezed{before.value.squeeze * s.thickness, number(normal_stiffness),
+                                   number(asperity_height), number(asperity_stiffness)};
     const auto thickness = step_film(squeezed, s.thickness, e.gap, e.gap, time);
     if (!thickness.ok()) {
       return detail::no_contact_forces<T>(thickness.reason == film_status::step_too_long
@@ -99,18 +99,19 @@ struct wet_contact {
     const bool touching = thickness.value < squeezed.asperity_height;
     answer.asperities = touching ? squeezed.asperities(thickness.value) : T(0);
     const vec3<T> coupled = v.roll * r.coupling;
-    const vec3<T> carried = detail::turned(s.shear, s.normal, e.normal, (dot(m.spin1 + m.spin2, middle)) * time * T(0.5));
+    const vec3<T> carried =
+        detail::turned(s.shear, s.normal, e.normal, (dot(m.spin1 + m.spin2, middle)) * time * T(0.5));
     const vec3<T> trial = carried + v.slip * (number(shear_stiffness) * time);
-    const detail::slider<T> sliding = detail::slide(trial - coupled, number(friction) * answer.asperities,
-                                                    number(shear_stiffness) * time, r.shear);
+    const detail::slider<T> sliding =
+        detail::slide(trial - coupled, number(friction) * answer.asperities, number(shear_stiffness) * time, r.shear);
     const vec3<T> drag = sliding.force + coupled;
     const vec3<T> rolling = sliding.rate * r.coupling + v.roll * r.roll;
     answer.sliding = sliding.slides;
     answer.shear = drag;
     answer.on = detail::forces_of(e.normal, arm1, arm2, answer.pull, drag, rolling, r.twist * v.twist);
     const T growth = (thickness.value - s.thickness) / time;
-    answer.dissipated =
-        time * ((answer.pull + answer.asperities) * growth + dot(drag, sliding.rate) + dot(rolling, v.roll) + r.twist * v.twist * v.twist);
+    answer.dissipated = time * ((answer.pull + answer.asperities) * growth + dot(drag, sliding.rate) +
+                                dot(rolling, v.roll) + r.twist * v.twist * v.twist);
     answer.stored = (answer.pull * answer.pull / squeezed.stiffness + norm2(drag) / number(shear_stiffness)) * T(0.5);
     if (touching) {
       answer.stored = answer.stored + squeezed.asperity_energy(thickness.value);
@@ -128,7 +129,7 @@ struct wet_contact {
       return {contact_forces<T>{}, contact_status::apart};
     }
     return detail::no_contact_forces<T>(why == pair_status::invalid_input ? contact_status::invalid_input
-                                                                         : contact_status::not_covered);
+                                                                          : contact_status::not_covered);
   }
 };
 static_assert(contact_law<wet_contact<>, double>);

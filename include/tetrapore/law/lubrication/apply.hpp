@@ -4,8 +4,8 @@
 #include "tetrapore/law/lubrication/concept.hpp"
 
 /// \file
-/// From the motion of two grains and the resistance of the pair to forces and torques on both: the one place where slip,
-/// opposite forces and the balance of torques are written.
+/// From the motion of two grains and the resistance of the pair to forces and torques on both: the one place
+/// where slip, opposite forces and the balance of torques are written.
 
 namespace tetrapore::inline TETRAPORE_ABI {
 
@@ -71,8 +71,8 @@ template <real T>
 /// \par Units   [N], [N m]
 /// \par Domain  any motion; a resistance with NaN gives NaN
 /// \par Accuracy  rounding
-/// \par Source  minus half the slopes of the power by the velocities and spins; Chareyre et al., EPJ Web Conf. 140, 09027
-///              (2017), §2.2, for the two terms of translation
+/// \par Source  minus half the slopes of the power by the velocities and spins; Chareyre et al., EPJ Web Conf. 140,
+///              09027 (2017), §2.2, for the two terms of translation
 template <real T>
 [[nodiscard]] constexpr pair_forces<T> apply(const pair_resistance<T>& r, const pair_motion<T>& m) noexcept {
   const relative_motion<T> v = relative_motion_of(m, r.normal, r.arm1, r.arm2);

@@ -5,8 +5,8 @@
 #include "tetrapore/core/real.hpp"
 
 /// \file
-/// Steps in time of a film that is squeezed, for any length of the step: the thickness stays positive, because it is the
-/// one positive root of the step's equation. The film between elastic grains, and between two free masses.
+/// Steps in time of a film that is squeezed, for any length of the step: the thickness stays positive, because it
+/// is the one positive root of the step's equation. The film between elastic grains, and between two free masses.
 
 namespace tetrapore::inline TETRAPORE_ABI {
 
@@ -53,9 +53,10 @@ struct film_scheme {
 ///
 ///   ν u'/u = k (u_n − u) + k_a (u_a − u)₊ u_a/u
 ///
-/// Asperities give way with the stiffness k_a where the film begins to be thinner than they are, and without bound where
-/// it vanishes: plain springs under a load beyond k_a u_a would let the film thin out of the numbers. u is the thickness of the film, u_n the gap of the undeformed grains (negative in an overlap), ν = h × squeeze
-/// resistance, 6 π μ a*² to leading order.
+/// Asperities give way with the stiffness k_a where the film begins to be thinner than they are, and without bound
+/// where it vanishes: plain springs under a load beyond k_a u_a would let the film thin out of the numbers. u is the
+/// thickness of the film, u_n the gap of the undeformed grains (negative in an overlap), ν = h × squeeze resistance, 6 π
+/// μ a*² to leading order.
 /// \par Units  drag [N s], stiffnesses [N/m], height [m]
 template <real T>
 struct elastic_film {
@@ -86,7 +87,8 @@ struct elastic_film {
 
 namespace detail {
 
-/// The positive root of a u² + b u − c = 0, a ≥ 0, c > 0, without cancellation; infinite or negative where a = 0 has none.
+/// The positive root of a u² + b u − c = 0, a ≥ 0, c > 0, without cancellation; infinite or negative where a = 0 has
+/// none.
 template <real T>
 [[nodiscard]] T positive_root(const T& a, const T& b, const T& c) noexcept {
   using std::sqrt;
@@ -100,8 +102,8 @@ template <real T>
 
 inline constexpr int newton_limit = 100;
 
-/// y with y + a (e^y − 1) + b (1 − e^(−y)) = c, a, b ≥ 0: the left side grows. Newton's iteration, halved where it leaves
-/// what is known to hold the root. NaN when it does not converge.
+/// y with y + a (e^y − 1) + b (1 − e^(−y)) = c, a, b ≥ 0: the left side grows. Newton's iteration, halved where it
+/// leaves what is known to hold the root. NaN when it does not converge.
 template <real T>
 [[nodiscard]] T logarithmic_growth(const T& a, const T& b, const T& c) noexcept {
   using std::exp;
@@ -134,7 +136,7 @@ template <real T>
     }
     const T size = next < y ? y - next : next - y;
     y = next;
-    if (!(T(epsilon<T>) * (y < T(0) ? -y : y) < size) || (k > 1 && inside && !(size < last) && size < T(1e-3) )) {
+    if (!(T(epsilon<T>) * (y < T(0) ? -y : y) < size) || (k > 1 && inside && !(size < last) && size < T(1e-3))) {
       return y;
     }
     last = size;
@@ -162,10 +164,12 @@ template <real T>
 /// \par Accuracy  the step's equation to rounding (16 epsilon); of the first order, of the second with theta = 1/2; the
 ///                logarithm with k = 0 and no asperities: exact
 /// \par Source  u² + b u + c = 0 with c < 0 has one positive root: backward Euler for the film; the other schemes: own
-///              derivation. The exact solutions it is tested on: u_n/(1 + (u_n/u_0 − 1) e^(−k u_n t/ν)) for constant u_n
+///              derivation. The exact solutions it is tested on: u_n/(1 + (u_n/u_0 − 1) e^(−k u_n t/ν)) for constant
+///              u_n
 template <real T>
 [[nodiscard]] outcome<T, film_status> step_film(const elastic_film<T>& film, const T& thickness, const T& before,
-                                                const T& after, const T& time, const film_scheme& scheme = {}) noexcept {
+                                                const T& after, const T& time,
+                                                const film_scheme& scheme = {}) noexcept {
   using std::exp;
   const T limit(infinity<T>);
   if (!detail::positive_number(thickness) || !detail::positive_number(film.drag) || !detail::positive_number(time) ||
@@ -213,14 +217,14 @@ struct approach {
 /// \param force  F, positive where it opens the gap
 /// \par Units   [kg], [N s], [N], time [s]
 /// \par Domain  mass, drag, time, gap > 0
-/// \par Accuracy  the step's equation to rounding. Stepped by the logarithm, mass × rate + drag × ln(gap) − force × time
-///                is kept to rounding, whatever the step, so that a free approach never touches; by the thickness
+/// \par Accuracy  the step's equation to rounding. Stepped by the logarithm, mass × rate + drag × ln(gap) − force ×
+///                time is kept to rounding, whatever the step, so that a free approach never touches; by the thickness
 ///                (backward Euler) it is so to the first order, and the gap is positive after any step
 /// \par Source  own derivation; the constant of free approach: the integral of m h'' = −ν h'/h
 template <real T>
-[[nodiscard]] outcome<approach<T>, film_status> step_approach(const approach<T>& from, const T& mass, const T& drag,
-                                                              const T& force, const T& time,
-                                                              film_variable variable = film_variable::logarithm) noexcept {
+[[nodiscard]] outcome<approach<T>, film_status> step_approach(
+    const approach<T>& from, const T& mass, const T& drag, const T& force, const T& time,
+    film_variable variable = film_variable::logarithm) noexcept {
   using std::exp;
   using std::expm1;
   const T limit(infinity<T>);

@@ -7,8 +7,8 @@
 namespace tetrapore::inline TETRAPORE_ABI {
 
 /// Any lubrication law between rough grains: where the gap is narrower than the asperities are high, the liquid between
-/// them flows as through a gap of their height, so that grains that touch or overlap by a part of a radius have a finite
-/// resistance too. The arms are those of the true gap: a rigid motion of the pair costs nothing.
+/// them flows as through a gap of their height, so that grains that touch or overlap by a part of a radius have a
+/// finite resistance too. The arms are those of the true gap: a rigid motion of the pair costs nothing.
 /// \par Units   height [m]
 /// \par Domain  height > 0; gap > −radius of the smaller grain
 /// \par Accuracy  the law's own; at a gap above the height, its very answer

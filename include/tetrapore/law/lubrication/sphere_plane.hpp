@@ -41,7 +41,8 @@ struct sphere_plane {
     const T fifth = detail::constant<T>(0.2L) * logarithm;
     return detail::resistance_of(e, T(6) * scale * (y * T(0.25) + fifth + rest[0]), scale * (T(16) * fifth + rest[1]),
                                  scale * radius * (T(12) * fifth - rest[2]),
-                                 scale * radius * radius * (T(24) * fifth + rest[3]), scale * radius * radius * rest[4]);
+                                 scale * radius * radius * (T(24) * fifth + rest[3]),
+                                 scale * radius * radius * rest[4]);
   }
 };
 static_assert(lubrication_law<sphere_plane, double>);

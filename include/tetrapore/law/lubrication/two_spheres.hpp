@@ -45,14 +45,16 @@ struct two_spheres {
     const T y = T(4) * star / e.gap;
     const T p = T(1) / (T(1) + y);
     const T logarithm = log(T(1) + y);
-    const auto rest = detail::regular_part(detail::regular_of_spheres_as<underlying_t<T>>, T(4) * square * bulk * inverse - T(1), p, logarithm);
+    const auto rest = detail::regular_part(detail::regular_of_spheres_as<underlying_t<T>>,
+                                           T(4) * square * bulk * inverse - T(1), p, logarithm);
     const T scale = detail::constant<T>(pi<long double>) * T(static_cast<underlying_t<T>>(viscosity.get())) * star;
     const auto tenths = [](double x) { return detail::constant<T>(static_cast<long double>(x) / 10); };
-    return detail::resistance_of(
-        e, T(6) * scale * (y * T(0.25) + (tenths(4.5) - T(0.25) * square) * logarithm + rest[0]),
-        scale * ((T(2) + tenths(12) * square) * logarithm + rest[1]),
-        scale * star * beta * (rest[2] - tenths(24) * logarithm), scale * star * star * (tenths(48) * logarithm + rest[3]),
-        scale * star * star * rest[4] * (soft * soft * inverse * inverse));
+    return detail::resistance_of(e,
+                                 T(6) * scale * (y * T(0.25) + (tenths(4.5) - T(0.25) * square) * logarithm + rest[0]),
+                                 scale * ((T(2) + tenths(12) * square) * logarithm + rest[1]),
+                                 scale * star * beta * (rest[2] - tenths(24) * logarithm),
+                                 scale * star * star * (tenths(48) * logarithm + rest[3]),
+                                 scale * star * star * rest[4] * (soft * soft * inverse * inverse));
   }
 };
 static_assert(lubrication_law<two_spheres, double>);
