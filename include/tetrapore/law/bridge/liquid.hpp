@@ -24,11 +24,11 @@ struct bridge_presence {
   /// the edge are those of `law.bridge`: what is given, and the warm state if there is one.
   template <class Law, class... Given>
   [[nodiscard]] auto bridge(const Law& law, const edge<T>& e, Given&&... given) noexcept {
-    auto answer = law.bridge(e, static_cast<Given&&>(given)...);
-    if (!present && answer.ok() && e.gap > creation_gap) {
-      answer.value = {};
-      answer.reason = bridge_status::no_liquid;
+    using answer_type = decltype(law.bridge(e, static_cast<Given&&>(given)...));
+    if (!present && e.gap > creation_gap) {
+      return answer_type{{}, bridge_status::no_liquid};
     }
+    const answer_type answer = law.bridge(e, static_cast<Given&&>(given)...);
     if (answer.kind() == verdict::ok || answer.kind() == verdict::absent) {
       present = answer.ok();
     }

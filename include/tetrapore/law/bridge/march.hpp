@@ -45,9 +45,10 @@ class path {
     return p;
   }
 
-  /// The waypoint at a distance along the curve, or one that is not sound.
+  /// The waypoint at a distance along the curve, or one that is not sound; a rough one lies beside the curve by 1e-6.
   template <int N>
-  [[nodiscard]] waypoint<T> advance(const waypoint<T>& from, const T& distance, int* iterations) const noexcept {
+  [[nodiscard]] waypoint<T> advance(const waypoint<T>& from, const T& distance, int* iterations,
+                                    bool rough = false) const noexcept {
     using std::isfinite;
     waypoint<T> p;
     p.u = from.u;
@@ -106,7 +107,7 @@ class path {
       move<Equal>(p.u, p.at.scale, step, T(1));
       *iterations = iteration + 1;
       const T gain = size / before;
-      if (size < T(20) * std::numeric_limits<T>::epsilon() ||
+      if ((rough && size < T(1e-3)) || size < T(20) * std::numeric_limits<T>::epsilon() ||
           (iteration > 0 && size * gain * gain < T(4) * std::numeric_limits<T>::epsilon() && size < T(1e-3)) ||
           (iteration > 2 && size < T(1e-8) && gain > T(0.3))) {
         settle<N>(p, &from, 0);
@@ -233,6 +234,7 @@ template <int N, bool Equal, std::floating_point T>
 template <int N, bool Equal, std::floating_point T>
 [[nodiscard]] inline journey<T> follow(const path<Equal, T>& along_path, waypoint<T> from, const T& target,
                                        int sense) noexcept {
+  using std::isfinite;
   const T sign = sense < 0 ? T(-1) : T(1);
   journey<T> trip;
   trip.end = from;
@@ -248,8 +250,8 @@ template <int N, bool Equal, std::floating_point T>
       trip.how = arrival::at_target;
       return trip;
     }
-    const waypoint<T> next = along_path.template advance<N>(from, h, &iterations);
-    if (!next.sound || iterations > 6) {
+    const waypoint<T> next = along_path.template advance<N>(from, h, &iterations, true);
+    if (!next.sound || iterations > 5) {
       h *= T(0.4);
       if (h < T(1e-7)) {
         trip.end = from;
@@ -283,7 +285,7 @@ template <int N, bool Equal, std::floating_point T>
     }
     if (!passed && !folded) {
       from = next;
-      h = smaller(h * (iterations <= 3 ? T(1.6) : T(1)), T(0.6));
+      h = smaller(h * (iterations <= 2 ? T(1.6) : T(1)), T(0.8));
       continue;
     }
     // between `from`, which lies before, and `next`: the fold first, then the target if it lies before the fold
@@ -310,6 +312,10 @@ template <int N, bool Equal, std::floating_point T>
           at_high = mid;
         }
         const T least = smaller(std::abs(at_low.slope), std::abs(at_high.slope));
+        if (isfinite(target) && sign * (target - at_low.reach) >
+                                    T(2) * std::abs(at_low.slope) * (high - low) + T(0.02) * std::abs(target)) {
+          break;  // the target is far beyond any fold of a curve that bends down
+        }
         if (sign * (mid.reach - target) >= T(0) ||
             least * (high - low) < T(0.1) * std::numeric_limits<T>::epsilon() * std::abs(mid.reach)) {
           break;

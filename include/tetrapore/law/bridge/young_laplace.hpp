@@ -89,6 +89,20 @@ struct young_laplace {
     return widest(e, p.value, bridge_control::suction);
   }
 
+  /// The highest suction at which a bridge spans the gap of the edge: below it there is one, above it none. Infinite
+  /// where the surfaces touch or overlap; absent where the gap is too wide for any positive suction. \par Units [Pa]
+  template <std::floating_point T>
+  [[nodiscard]] outcome<T, bridge_status> highest_suction(const edge<T>& e) const noexcept {
+    if (!in_domain(e)) {
+      return {T(quiet_nan<T>), bridge_status::invalid_input};
+    }
+    if (!(e.gap > T(0))) {
+      return {T(infinity<T>), bridge_status::ok};
+    }
+    const auto pair = pair_of(e);
+    return pair.equal ? driest<T, true>(pair, e.gap) : driest<T, false>(pair, e.gap);
+  }
+
  private:
   template <class T>
   using work = std::conditional_t<std::is_same_v<T, float>, double, T>;
@@ -127,8 +141,8 @@ struct young_laplace {
   }
 
   template <class T, class W = work<T>>
-  [[nodiscard]] meniscus<T> meniscus_of(const detail::surface_pair<W>& pair, const detail::profile<W>& u, const W& lambda,
-                                        const W& volume) const noexcept {
+  [[nodiscard]] meniscus<T> meniscus_of(const detail::surface_pair<W>& pair, const detail::profile<W>& u,
+                                        const W& lambda, const W& volume) const noexcept {
     using std::atan;
     const W sigma = static_cast<W>(surface_tension.get());
     const detail::contact_circle<W> first(pair.side[0], u.w[0]);
@@ -150,8 +164,7 @@ struct young_laplace {
     m.suction = static_cast<T>(W(2) * sigma * u.k);
     m.neck = static_cast<T>(neck);
     m.filling1 = static_cast<T>(fill1);
-    m.filling2 = pair.equal ? m.filling1
-                            : static_cast<T>(W(2) * atan(W(0.5) * pair.side[1].curvature * u.w[1]));
+    m.filling2 = pair.equal ? m.filling1 : static_cast<T>(W(2) * atan(W(0.5) * pair.side[1].curvature * u.w[1]));
     m.contact1 = static_cast<T>(first.radius);
     m.contact2 = static_cast<T>(second.radius);
     m.curvature = static_cast<T>(u.k);
@@ -206,6 +219,7 @@ struct young_laplace {
 
   /// How many nodes the last digits need: near a fold the error of the quadrature is amplified.
   static constexpr int fine = 2 * Nodes;
+  static constexpr int rough = 6;  ///< enough to tell that a gap is a per cent beyond the fold
 
   template <class T, bool Warm, bool Equal, class W = work<T>>
   [[nodiscard]] outcome<meniscus<T>, bridge_status> solve_pair(const edge<T>& e, const detail::surface_pair<W>& pair,
@@ -257,7 +271,18 @@ struct young_laplace {
   template <bool Equal, class W>
   [[nodiscard]] static bridge_status travel_to(const detail::surface_pair<W>& pair, const detail::demand<W>& d,
                                                detail::found<W>& f) noexcept {
-    const auto trip = detail::travel<fine, Equal>(pair, d, d.gap);
+    auto trip = detail::travel<rough, Equal>(pair, d, d.gap);
+    if (trip.how == detail::arrival::at_target) {
+      f = detail::newton<fine, Equal>(pair, d, trip.end.u);
+      if (f.converged && holds(detail::index_of<Equal>(pair, f, d.by), d.by)) {
+        return bridge_status::ok;
+      }
+    }
+    const bool far = (trip.how == detail::arrival::at_fold || trip.how == detail::arrival::at_slide) &&
+                     std::abs(d.gap - trip.end.reach) > W(0.01) * std::abs(d.gap);
+    if (!far && trip.how != detail::arrival::at_limit) {
+      trip = detail::travel<fine, Equal>(pair, d, d.gap);
+    }
     switch (trip.how) {
       case detail::arrival::at_fold: return d.gap < W(0) ? bridge_status::flooded : bridge_status::ruptured;
       case detail::arrival::at_slide: return bridge_status::lopsided;
@@ -328,14 +353,78 @@ struct young_laplace {
     const auto trip = detail::travel<fine, Equal>(pair, d, infinity<W>);
     if (trip.how == detail::arrival::at_fold || trip.how == detail::arrival::at_slide) {
       const W scale = trip.end.at.scale;
-      return {{static_cast<T>(trip.end.reach),
-               trip.how == detail::arrival::at_fold ? bridge_end::fold : bridge_end::lopsided,
-               meniscus_of<T>(pair, trip.end.u, trip.end.at.lambda * scale,
-                              trip.end.at.volume * scale * scale * scale)},
-              bridge_status::ok};
+      return {
+          {static_cast<T>(trip.end.reach),
+           trip.how == detail::arrival::at_fold ? bridge_end::fold : bridge_end::lopsided,
+           meniscus_of<T>(pair, trip.end.u, trip.end.at.lambda * scale, trip.end.at.volume * scale * scale * scale)},
+          bridge_status::ok};
     }
     const auto why = trip.how == detail::arrival::at_limit ? bridge_status::flooded : bridge_status::not_converged;
     return {{T(quiet_nan<T>), bridge_end::fold, without<T>(why).value}, why};
+  }
+
+  /// The fold under suction is where the suction is highest along the bridges of the gap, told apart by their volume;
+  /// all of these are stable at constant volume down to smaller ones.
+  template <class T, bool Equal, class W = work<T>>
+  [[nodiscard]] outcome<T, bridge_status> driest(const detail::surface_pair<W>& pair, const T& gap) const noexcept {
+    using std::cbrt;
+    using std::isfinite;
+    using std::sqrt;
+    constexpr int cap = 100;
+    detail::demand<W> d{static_cast<W>(gap), W(0), bridge_control::volume};
+    detail::found<W> f;
+    f.converged = false;
+    const auto solved_at = [&](const W& volume) {
+      d.value = volume;
+      const detail::profile<W> near = f.u;
+      const bool known = f.converged;
+      f = known ? detail::newton<Nodes, Equal>(pair, d, near, 12) : detail::approach<Nodes, Equal>(pair, d);
+      if (known && !(f.converged && holds(detail::index_of<Equal>(pair, f, d.by), d.by))) {
+        f = detail::approach<Nodes, Equal>(pair, d);
+      }
+      return f.converged;
+    };
+    const auto slope = [&] {  // dk/d ln V
+      const W inverse = W(1) / f.at.scale;
+      return f.by_value[0] * d.value * inverse * inverse * inverse * inverse;
+    };
+    // about the volume of the fold, between paraboloids as the power 7/3 of the gap
+    const W radius = W(2) / (pair.side[0].curvature + pair.side[1].curvature);
+    W low = W(2) * d.gap * d.gap * cbrt(d.gap * radius * radius);
+    int calls = 0;
+    while (!solved_at(low) && calls < cap) {
+      low *= W(2);
+      ++calls;
+    }
+    W at_low = f.converged ? slope() : W(0);
+    W high = low;
+    W at_high = at_low;
+    while (f.converged && at_high > W(0) && calls < cap) {
+      low = high;
+      at_low = at_high;
+      high *= W(2);
+      at_high = solved_at(high) ? slope() : W(0);
+      ++calls;
+    }
+    while (at_high < W(0) && !(at_low > W(0)) && calls < cap) {
+      low *= W(0.5);
+      at_low = solved_at(low) ? slope() : infinity<W>;
+      ++calls;
+    }
+    for (; at_high < W(0) && high - low > W(1e-6) * high && calls < cap; ++calls) {
+      const bool bisect = !isfinite(at_low) || calls % 3 == 2;
+      const W middle = bisect ? sqrt(low * high) : low + (high - low) * at_low / (at_low - at_high);
+      const W now = solved_at(middle) ? slope() : infinity<W>;
+      (now > W(0) ? low : high) = middle;
+      (now > W(0) ? at_low : at_high) = now;
+    }
+    if (at_high < W(0) && calls < cap && solved_at(high) && f.u.k > W(0)) {
+      return {static_cast<T>(W(2) * static_cast<W>(surface_tension.get()) * f.u.k), bridge_status::ok};
+    }
+    d = {static_cast<W>(gap), W(0), bridge_control::suction};
+    const bridge_status flat = travel_to<Equal>(pair, d, f);
+    const bool none = flat == bridge_status::ruptured || flat == bridge_status::lopsided;
+    return {none ? T(0) : T(quiet_nan<T>), none ? flat : bridge_status::not_converged};
   }
 
   template <class T, class W = work<T>>
