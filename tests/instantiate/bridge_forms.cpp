@@ -30,11 +30,12 @@ template table_report bridge_table<1, 2>::build(const young_laplace<>&, const ta
 template struct tabulated<bridge_table<1, 2>>;
 
 template <class T>
-constexpr bool every_form = bridge_law<willett<>, T>&& bridge_law<willett_small<>, T>&& bridge_law<lambert<>, T>&&
-    bridge_law<rabinovich<>, T>&& bridge_law<soulie<>, T>&& bridge_law<mikami<>, T>&&
-        bridge_law<weigert_ripperger<>, T>&& bridge_law<toroid<>, T>&& bridge_law<toroid<>, T, given_suction<T>>&&
-            bridge_law<held_at_contact<willett<>>, T>&& bridge_law<tabulated<>, T>&& rupture_rule<lian_rupture, T>&&
-                rupture_rule<willett_rupture, T>&& rupture_rule<mikami_rupture, T>&& rupture_rule<without_rupture, T>;
+constexpr bool every_form =
+    bridge_law<willett<>, T> && bridge_law<willett_small<>, T> && bridge_law<lambert<>, T> &&
+    bridge_law<rabinovich<>, T> && bridge_law<soulie<>, T> && bridge_law<mikami<>, T> &&
+    bridge_law<weigert_ripperger<>, T> && bridge_law<toroid<>, T> && bridge_law<toroid<>, T, given_suction<T>> &&
+    bridge_law<held_at_contact<willett<>>, T> && bridge_law<tabulated<>, T> && rupture_rule<lian_rupture, T> &&
+    rupture_rule<willett_rupture, T> && rupture_rule<mikami_rupture, T> && rupture_rule<without_rupture, T>;
 static_assert(every_form<float> && every_form<double> && every_form<long double>);
 static_assert(!bridge_law<willett<>, double, given_suction<double>>, "a fit to a volume knows no suction");
 static_assert(tabulable<young_laplace<>> && !tabulable<willett<>>);

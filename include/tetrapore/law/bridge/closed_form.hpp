@@ -18,8 +18,7 @@ namespace tetrapore::inline TETRAPORE_ABI {
 /// Models: lian_rupture, willett_rupture, mikami_rupture, without_rupture.
 template <class R, class T = double>
 concept rupture_rule = real<T> && std::copyable<R> && requires(const R r, const edge<T> e, const T v, const double a) {
-  { r.gap(e, v, a) }
-  noexcept->std::convertible_to<underlying_t<T>>;
+  { r.gap(e, v, a) } noexcept -> std::convertible_to<underlying_t<T>>;
 };
 
 namespace detail {
@@ -111,7 +110,7 @@ struct held_at_contact {
   Law law;
 
   template <real T>
-  requires bridge_law<Law, T>
+    requires bridge_law<Law, T>
   [[nodiscard]] auto bridge(edge<T> e, given_volume<T> liquid) const noexcept {
     if (e.gap < T(0) && detail::admit_pair(e, 1.0, 0.0, 0.0) == bridge_status::ok) {
       e.gap = T(0);

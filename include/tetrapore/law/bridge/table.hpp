@@ -109,7 +109,7 @@ struct column_solver {
   }
 };
 template <class Law>
-requires warm_bridge_law<Law>
+  requires warm_bridge_law<Law>
 struct column_solver<Law> {
   const Law& law;
   typename Law::template warm_state<double> state{};
@@ -155,13 +155,15 @@ struct table_report {
 ///
 ///   y = √(s (D_r − D) / ((s + D) D_r)), 1 at contact and 0 at rupture, where the force is smooth in y,
 ///
-/// in each a polynomial of degree 4 in the volume and 5 in y, continuous from cell to cell. The bits of the volume are
-/// the cell and the place in it, so that a look-up takes one square root and no logarithm. Overlaps have cells of their
-/// own.
+/// (where equal spheres lose their bridge to the lopsided limit, just before it folds, cells that narrow towards
+/// rupture), in each a polynomial of degree 4 in the volume and 5 in y, continuous from cell to cell. The bits of the
+/// volume are the cell and the place in it, so that a look-up takes one square root and no logarithm. Overlaps have
+/// cells of their own.
 /// \par Units   inside: lengths in R₁, forces over R₁ [N/m]
 /// \par Source  the variables are this project's; after a table in (ln V, √(1 − ξ)), ξ a ratio of logarithms of the gap
-template <int Octaves = 16, int GapCells = 12>
-requires(Octaves > 0 && GapCells > 1) class bridge_table {
+template <int Octaves = 16, int GapCells = 16>
+  requires(Octaves > 0 && GapCells > 1)
+class bridge_table {
  public:
   /// Fills the table by the law, whose angles and surface tension are those of the pair, and measures it between its
   /// nodes. After a report that is not ok the table is empty.
@@ -218,7 +220,8 @@ requires(Octaves > 0 && GapCells > 1) class bridge_table {
     const double s = cells.scale + cells.scale_slope * at.t;
     double z;  // in widths of a cell, from rupture to contact and on into the overlap
     if (gap >= 0) {
-      z = GapCells * std::sqrt(s * (rupture - gap) / ((s + gap) * rupture));
+      const double y = std::sqrt(s * (rupture - gap) / ((s + gap) * rupture));
+      z = GapCells * (graded_ ? (std::sqrt(grade * grade + 4 * (1 + grade) * y) - grade) / 2 : y);
     } else if (gap >= -depth_) {
       z = GapCells + OverlapCells * (gap * (s + depth_) / ((gap - s) * depth_));
     } else {
@@ -286,6 +289,7 @@ requires(Octaves > 0 && GapCells > 1) class bridge_table {
     const double expected = radius * ratio_;
     return other == expected || (other - expected < 1e-9 * other && expected - other < 1e-9 * other);
   }
+  static constexpr double grade = 0.3;
   static constexpr double largest = std::numeric_limits<double>::max();
 
   /// Why the fast path has no answer: bad input, no liquid, another pair or a volume outside the table.
@@ -311,7 +315,9 @@ requires(Octaves > 0 && GapCells > 1) class bridge_table {
   /// The gap of a place z, in widths of a cell from rupture on.
   [[nodiscard]] double gap_of(double z, double rupture, double s) const noexcept {
     if (z <= GapCells) {
-      const double q = (z / GapCells) * (z / GapCells);
+      const double u = z / GapCells;
+      const double y = graded_ ? u * (u + grade) / (1 + grade) : u;
+      const double q = y * y;
       return s * rupture * (1 - q) / (s + q * rupture);
     }
     const double u = (z - GapCells) / OverlapCells;
@@ -333,17 +339,21 @@ requires(Octaves > 0 && GapCells > 1) class bridge_table {
     std::array<std::array<double, column_length>, volume_nodes> force;  // over R₁, by place in the volume
     double most = 0;
 
+    graded_ = false;
     for (int k = 0; k < rows; ++k) {
       row& made = row_[static_cast<std::size_t>(k)];
       std::array<double, rupture_nodes> rupture;
       for (std::size_t i = 0; i < rupture_nodes; ++i) {
-        const auto limit = law.rupture_gap(pair_at(0), liquid_at(k, rupture_places[i]));
-        if (!limit.ok() || !(limit.value.gap > 0)) {
-          return refused(limit.ok() ? bridge_status::not_covered : limit.reason);
+        const bridge_status found = rupture_at(law, k, rupture_places[i], rupture[i]);
+        if (found != bridge_status::ok) {
+          return refused(found);
         }
-        rupture[i] = limit.value.gap / radius1_;
       }
       made.rupture = detail::product(rupture_fit, rupture);
+      const bridge_status found = keep_within(law, k, detail::middles_of(rupture_places));
+      if (found != bridge_status::ok) {
+        return refused(found);
+      }
       const double lower = scale_of(volume_at(k, -1), rupture.front());
       const double upper = scale_of(volume_at(k, 1), rupture.back());
       made.scale = (lower + upper) / 2;
@@ -354,9 +364,13 @@ requires(Octaves > 0 && GapCells > 1) class bridge_table {
       if (verdict_of(made.beyond) != verdict::absent) {
         return refused(made.beyond == bridge_status::ok ? bridge_status::not_covered : made.beyond);
       }
+      graded_ = graded_ || made.beyond == bridge_status::lopsided;
+    }
+    for (int k = 0; k < rows; ++k) {
+      row& made = row_[static_cast<std::size_t>(k)];
       // the lower end of a row is the upper end of the one before it
       for (std::size_t i = 0; i < volume_nodes; ++i) {
-        if (k > 0 && i == 0) {
+        if (k > 0 && i == 0 && joined(k)) {
           force[0] = force[volume_nodes - 1];
           continue;
         }
@@ -400,6 +414,41 @@ requires(Octaves > 0 && GapCells > 1) class bridge_table {
       }
     }
     return check(law, rows, cells, most, report);
+  }
+
+  /// The rupture gap of the law, in R₁.
+  template <tabulable Law>
+  [[nodiscard]] bridge_status rupture_at(const Law& law, int k, double t, double& gap) const noexcept {
+    const auto limit = law.rupture_gap(pair_at(0), liquid_at(k, t));
+    gap = limit.value.gap / radius1_;
+    return !limit.ok() ? limit.reason : gap > 0 ? bridge_status::ok : bridge_status::not_covered;
+  }
+
+  /// Lowers the rupture gap of a row to that of the law where it is beyond: in a row in which the fold gives way to the
+  /// lopsided limit it has a bend that no polynomial follows.
+  template <tabulable Law>
+  [[nodiscard]] bridge_status keep_within(const Law& law, int k,
+                                          const std::array<double, rupture_nodes>& places) noexcept {
+    auto& coefficients = row_[static_cast<std::size_t>(k)].rupture;
+    double beyond = 0;
+    for (const double t : places) {
+      double exact = 0;
+      const bridge_status found = rupture_at(law, k, t, exact);
+      if (found != bridge_status::ok) {
+        return found;
+      }
+      const double off = detail::polynomial(coefficients, t) / exact - 1;
+      beyond = off > beyond ? off : beyond;
+    }
+    for (double& c : coefficients) {
+      c *= beyond > 1e-10 ? 1 - 2 * beyond : 1;
+    }
+    return bridge_status::ok;
+  }
+  /// Whether a row begins with the rupture gap with which the one before it ends.
+  [[nodiscard]] bool joined(int k) const noexcept {
+    const double before = detail::polynomial(row_[static_cast<std::size_t>(k - 1)].rupture, 1);
+    return detail::size_of(detail::polynomial(row_[static_cast<std::size_t>(k)].rupture, -1) / before - 1) < 1e-12;
   }
 
   /// Measures the table between its nodes.
@@ -473,6 +522,7 @@ requires(Octaves > 0 && GapCells > 1) class bridge_table {
   double top_ = 0;    ///< the end of the last row, in the least volume; 0: empty
   double depth_ = 0;  ///< deepest overlap, in R₁
   bool exchangeable_ = false;
+  bool graded_ = false;  ///< narrower cells towards rupture, where the bridge goes lopsided just before it folds
   int rows_ = 0;
   std::array<row, static_cast<std::size_t>(row_count)> row_;
 };
