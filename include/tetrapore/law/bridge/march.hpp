@@ -221,7 +221,8 @@ template <int N, bool Equal, std::floating_point T>
     }
     where = mid;
     const T now = hold(mid);
-    if (std::abs(now) < T(4) * std::numeric_limits<T>::epsilon() || high - low < std::numeric_limits<T>::epsilon()) {
+    if (std::abs(now) < T(4) * std::numeric_limits<T>::epsilon() * hold(from) ||
+        high - low < std::numeric_limits<T>::epsilon()) {
       break;
     }
     (now > T(0) ? low : high) = tau;
