@@ -84,6 +84,13 @@ concept warm_bridge_law = bridge_law<L, T, Given> &&
                             { l.bridge(e, g, w).value.force } -> std::convertible_to<T>;
                           };
 
+/// A bridge law that knows the highest suction at which a bridge spans a gap: there is one at any lower suction of its
+/// domain, and none above. `l.highest_suction(edge)` gives it in [Pa]; infinite where the surfaces touch.
+template <class L, class T = double>
+concept ring_limit_law = bridge_law<L, T, given_suction<T>> && requires(const L l, const edge<T> e) {
+  { l.highest_suction(e) } noexcept -> std::same_as<outcome<T, bridge_status>>;
+};
+
 /// The force alone: the answer of a closed form.
 template <real T>
 struct bridge_pull {

@@ -396,29 +396,30 @@ struct young_laplace {
       low *= W(2);
       ++calls;
     }
-    W at_low = f.converged ? slope() : W(0);
+    const auto slope_at = [&](const W& volume) { return solved_at(volume) ? slope() : infinity<W>; };
+    W at_low = f.converged ? slope() : infinity<W>;
     W high = low;
     W at_high = at_low;
     while (f.converged && at_high > W(0) && calls < cap) {
       low = high;
       at_low = at_high;
       high *= W(2);
-      at_high = solved_at(high) ? slope() : W(0);
+      at_high = slope_at(high);
       ++calls;
     }
     while (at_high < W(0) && !(at_low > W(0)) && calls < cap) {
       low *= W(0.5);
-      at_low = solved_at(low) ? slope() : infinity<W>;
+      at_low = slope_at(low);
       ++calls;
     }
     for (; at_high < W(0) && high - low > W(1e-6) * high && calls < cap; ++calls) {
       const bool bisect = !isfinite(at_low) || calls % 3 == 2;
       const W middle = bisect ? sqrt(low * high) : low + (high - low) * at_low / (at_low - at_high);
-      const W now = solved_at(middle) ? slope() : infinity<W>;
+      const W now = slope_at(middle);
       (now > W(0) ? low : high) = middle;
       (now > W(0) ? at_low : at_high) = now;
     }
-    if (at_high < W(0) && calls < cap && solved_at(high) && f.u.k > W(0)) {
+    if (!(at_high > W(0)) && calls < cap && solved_at(high) && f.u.k > W(0)) {
       return {static_cast<T>(W(2) * static_cast<W>(surface_tension.get()) * f.u.k), bridge_status::ok};
     }
     d = {static_cast<W>(gap), W(0), bridge_control::suction};
