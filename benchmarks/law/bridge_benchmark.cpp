@@ -9,8 +9,8 @@
 
 #include "support/csv_table.hpp"
 #include "tetrapore/law/bridge.hpp"
+#include "tetrapore/law/bridge/closed_forms.hpp"
 #include "tetrapore/law/bridge/table.hpp"
-#include "tetrapore/law/bridge/toroid.hpp"
 
 #include <benchmark/benchmark.h>
 

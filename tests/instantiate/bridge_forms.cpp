@@ -2,8 +2,8 @@
 // The closed forms of a bridge with every rupture rule and scalar, and tables of several sizes, instantiated whole.
 
 #include "tetrapore/law/bridge.hpp"
+#include "tetrapore/law/bridge/closed_forms.hpp"
 #include "tetrapore/law/bridge/table.hpp"
-#include "tetrapore/law/bridge/toroid.hpp"
 
 namespace tetrapore::inline TETRAPORE_ABI {
 

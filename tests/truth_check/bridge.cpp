@@ -6,8 +6,8 @@
 // areas, so theirs come from the law in long double. An unstable row is a trap: its request must get
 // the stable bridge of the same request if there is one, else a status, and never the row's own numbers.
 #include "tetrapore/law/bridge.hpp"
+#include "tetrapore/law/bridge/closed_forms.hpp"
 #include "tetrapore/law/bridge/table.hpp"
-#include "tetrapore/law/bridge/toroid.hpp"
 #include "tetrapore/law/bridge/young_laplace.hpp"
 #include "truth_check/tables.hpp"
 

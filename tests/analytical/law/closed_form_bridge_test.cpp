@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tetrapore/law/bridge.hpp"
-#include "tetrapore/law/bridge/toroid.hpp"
+#include "tetrapore/law/bridge/closed_forms.hpp"
 
 #include <doctest/doctest.h>
 

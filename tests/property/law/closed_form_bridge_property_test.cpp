@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/dual.hpp"
 #include "tetrapore/law/bridge.hpp"
-#include "tetrapore/law/bridge/toroid.hpp"
+#include "tetrapore/law/bridge/closed_forms.hpp"
 
 #include <doctest/doctest.h>
 

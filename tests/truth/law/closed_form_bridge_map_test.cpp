@@ -3,7 +3,7 @@
 // The errors that the pages of the closed forms state, against the exact law on a grid: v = V/R³ (R of Derjaguin), one
 // contact angle of 0 to 50°, gaps up to 0.9 of the rupture gap.
 #include "tetrapore/law/bridge.hpp"
-#include "tetrapore/law/bridge/toroid.hpp"
+#include "tetrapore/law/bridge/closed_forms.hpp"
 
 #include <doctest/doctest.h>
 

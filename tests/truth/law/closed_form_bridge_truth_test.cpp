@@ -2,7 +2,7 @@
 #include "support/csv_table.hpp"
 #include "support/shared_data.hpp"
 #include "tetrapore/law/bridge.hpp"
-#include "tetrapore/law/bridge/toroid.hpp"
+#include "tetrapore/law/bridge/closed_forms.hpp"
 
 #include <doctest/doctest.h>
 
