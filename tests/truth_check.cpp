@@ -2,15 +2,19 @@
 //
 // truth_check TABLE.csv: measures every law that the table's columns name and prints one line per law.
 //   rows     rows of the table that ask the law for something inside its domain
-//   solved   an answer: a value, or that the opening is closed
+//   solved   an answer: a value, or its absence: the opening is closed, there is no bridge
 //   refused  the law refused, failed or gave no value
 //   wrong    status differs from the table, a refusal inside the law's stated domain, or an error above
-//            stated_accuracy · condition (support/condition.hpp) beyond the printed digits of the table
+//            stated_accuracy · condition beyond the printed digits of the table; stderr names these rows. The condition
+//            is that of support/condition.hpp for openings and of truth_check/bridge.cpp for bridges; approximations
+//            have none. A law that states no accuracy (inf) is held to its status alone
 //   max_rel_err, p99_rel_err     relative error of the main results, as it stands
 //   max_rel_err_per_condition    what stated_accuracy promises: the error beyond the table's digits over the condition
 //   table_digits                 relative half unit of the table's last digit, the worst of the rows; only where the
 //                                digits and not the law limit what can be seen
 //   ns_per_call                  over the rows that are not wrong
+//   outside                      rows that the law says it does not cover, which are not among its rows
+// and further numbers of a family: of bridges under each control, of each mode of a resistance.
 // Exit: 0 when nothing is wrong, 1 when something is, 2 when the table is not known.
 #include "truth_check/tables.hpp"
 

@@ -109,7 +109,8 @@ inline void check_bridge_law(const std::string& name, bool by_suction, double an
 
 namespace detail {
 
-/// Radius of the upright cylinder between two spheres, or a sphere and a plane, that holds a volume of liquid with them.
+/// Radius of the upright cylinder between two spheres, or a sphere and a plane, that holds a volume of liquid with
+/// them.
 [[nodiscard]] inline double cylinder_radius(const tp::edge<double>& e, double volume) {
   const auto held = [&](double radius) {
     double height = e.gap;

@@ -42,8 +42,8 @@ struct contact_point {
           {radius * std::sin(filling + angle), radius * std::cos(filling + angle)}};
 }
 
-/// The curve of constant mean curvature between two contacts: with z = r exp(iφ) and k half that curvature, 1 + 2kz goes
-/// round a circle, 2ks of its angle for an arc length s.
+/// The curve of constant mean curvature between two contacts: with z = r exp(iφ) and k half that curvature, 1 + 2kz
+/// goes round a circle, 2ks of its angle for an arc length s.
 [[nodiscard]] inline outline constant_curvature(const contact_point& from, const contact_point& to, double k,
                                                 std::size_t count = outline_points) {
   const std::complex<double> z1 = from.slope;

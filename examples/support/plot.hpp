@@ -28,7 +28,8 @@ struct mark {
   std::string text;  ///< beside it
 };
 
-/// Several curves over linear axes from 0; a curve of one point is a dot. A second scale on the right shows y in other units.
+/// Several curves over linear axes from 0; a curve of one point is a dot. A second scale on the right shows y in other
+/// units.
 struct plot {
   std::string title;
   std::string subtitle;

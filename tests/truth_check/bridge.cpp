@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Bridges against exact ones. A stable row must be answered by itself: force, areas, and the one of volume and suction
-// that was not given, to max(stated_accuracy, 16 κ), κ = 2⁻⁵³ Σ |x ∂y/∂x| / |y| over the gap and what was given: what the
-// rounding of the request alone does to that result. κ of the first two is the row's own; the table has no slopes of
-// areas, so theirs come from the law in long double. An unstable row is a trap: its request must get
-// the stable bridge of the same request if there is one, else a status, and never the row's own numbers.
+// that was not given, to max(stated_accuracy, 16 κ), κ = 2⁻⁵³ Σ |x ∂y/∂x| / |y| over the gap and what was given: what
+// the rounding of the request alone does to that result. κ of the first two is the row's own; the table has no slopes
+// of areas, so theirs come from the law in long double. An unstable row is a trap: its request must get the stable
+// bridge of the same request if there is one, else a status, and never the row's own numbers.
 #include "tetrapore/law/bridge.hpp"
 #include "tetrapore/law/bridge/closed_forms.hpp"
 #include "tetrapore/law/bridge/table.hpp"
@@ -273,8 +273,8 @@ std::optional<Law> law_of(const bridge_question& q) {
   }
 }
 
-/// The force by an approximation, on the stable bridges of given volume that it says it covers, up to nine tenths of the
-/// rupture gap; up to seven tenths for unequal radii, whose rupture the fits miss by more.
+/// The force by an approximation, on the stable bridges of given volume that it says it covers, up to nine tenths of
+/// the rupture gap; up to seven tenths for unequal radii, whose rupture the fits miss by more.
 template <class Law>
 law_report measure_approximation(const std::string& name, const std::vector<bridge_question>& questions) {
   constexpr double accuracy = stated_by<Law>(std::numeric_limits<double>::infinity());
@@ -405,7 +405,8 @@ std::map<std::string, double> leaning_gaps(const csv_table& t) {
 
 std::vector<law_report> measure_bridges(const csv_table& t) {
   auto all = questions_of(t);
-  // A bridge on the way to its fold that one table calls unstable, and the other stable up to a wider gap: undetermined.
+  // A bridge on the way to its fold that one table calls unstable, and the other stable up to a wider gap:
+  // undetermined.
   const auto leaning = leaning_gaps(t);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const auto at = leaning.find(t.text(i, "theta1_deg") + ' ' + t.text(i, "V"));
@@ -436,8 +437,8 @@ struct rupture_question {
   bool past_loss = false;          ///< the fold is one of a bridge that has lost its stability on the way
 };
 
-/// Whether a bridge hangs just before a gap and none just beyond it. Near the fold F changes as the root of the distance:
-/// what is just before must be farther from it than rounding.
+/// Whether a bridge hangs just before a gap and none just beyond it. Near the fold F changes as the root of the
+/// distance: what is just before must be farther from it than rounding.
 bool ends_at(const bridge_question& q, double gap) {
   const auto bridge_at = [&](double factor) {
     edge<double> e = q.shape;
@@ -485,10 +486,10 @@ std::vector<law_report> measure_ruptures(const std::vector<rupture_question>& qu
   return {report};
 }
 
-/// Folds of all pairs. An equal pair may lean over before: which, the other table says. So does, in effect, an unequal one
-/// with so little liquid that it hardly sees the difference, at a fold that comes first. Two rows have missed that: at
-/// θ = 60° and V / R³ near 1e-9 an equal pair leans over at 0.888 of its fold (rupture_asym_open.csv), the suction of their
-/// fold is that of the equal pair's, and their neighbours at other volumes and radii have the early fold.
+/// Folds of all pairs. An equal pair may lean over before: which, the other table says. So does, in effect, an unequal
+/// one with so little liquid that it hardly sees the difference, at a fold that comes first. Two rows have missed that:
+/// at θ = 60° and V / R³ near 1e-9 an equal pair leans over at 0.888 of its fold (rupture_asym_open.csv), the suction
+/// of their fold is that of the equal pair's, and their neighbours at other volumes and radii have the early fold.
 std::vector<law_report> measure_folds(const csv_table& t) {
   std::vector<rupture_question> all;
   for (const bridge_question& q : questions_of(t)) {

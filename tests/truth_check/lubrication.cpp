@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Resistances of a pair against the whole problem of two spheres, or of a sphere and a plane, in Stokes flow. The table
-// gives the resistance to any motion of both spheres; a law gives that to their relative motion with the rigid motions of
-// the pair left free. So here the rigid motions are eliminated from the table: what is left is the least power at a given
-// relative motion.
+// gives the resistance to any motion of both spheres; a law gives that to their relative motion with the rigid motions
+// of the pair left free. So here the rigid motions are eliminated from the table: what is left is the least power at a
+// given relative motion.
 #include "tetrapore/law/lubrication/leading_order.hpp"
 #include "tetrapore/law/lubrication/sphere_plane.hpp"
 #include "tetrapore/law/lubrication/two_spheres.hpp"

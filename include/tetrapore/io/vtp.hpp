@@ -68,8 +68,8 @@ struct tube {
 /// \param data   columns of one row per tube
 /// \param sides  corners of a tube's section, at least 3
 /// \throw output_error     where the file cannot be written
-/// \throw parameter_error  for a column of another length, fewer than 3 sides, a profile of fewer than 2 points, or more
-///                         points than 2^31; nothing is written then
+/// \throw parameter_error  for a column of another length, fewer than 3 sides, a profile of fewer than 2 points, or
+///                         more points than 2^31; nothing is written then
 inline void write_tubes(const std::filesystem::path& path, std::span<const tube> tubes,
                         std::span<const data_column> data = {}, std::size_t sides = 12) {
   constexpr auto most = static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());

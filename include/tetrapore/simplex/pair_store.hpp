@@ -17,8 +17,8 @@
 
 namespace tetrapore::inline TETRAPORE_ABI {
 
-/// Names a pair by the caller's grains: a grain, and another one, an image of one along periodic axes, or a wall. Made by
-/// `pair_of`, so that a pair has one name from whichever end it is seen.
+/// Names a pair by the caller's grains: a grain, and another one, an image of one along periodic axes, or a wall. Made
+/// by `pair_of`, so that a pair has one name from whichever end it is seen.
 struct pair_key {
   grain_id a;
   vertex b;
@@ -27,8 +27,8 @@ struct pair_key {
   [[nodiscard]] friend constexpr auto operator<=>(const pair_key&, const pair_key&) noexcept = default;
 };
 
-/// The pair of grain a and the image of grain b that is moved by `shift`. The smaller id stands first; of a grain and its
-/// own image, the one along the positive direction of the first axis that is crossed.
+/// The pair of grain a and the image of grain b that is moved by `shift`. The smaller id stands first; of a grain and
+/// its own image, the one along the positive direction of the first axis that is crossed.
 [[nodiscard]] constexpr pair_key pair_of(grain_id a, grain_id b, image shift = {}) noexcept {
   if (b < a || (a == b && shift < image{})) {
     return {b, vertex(a), image{} - shift};
@@ -50,12 +50,12 @@ namespace detail {
 
 }  // namespace detail
 
-/// A state for each of some pairs, found by the name of the pair. A pair need not be an edge of a network, and names hold
-/// the caller's grains alone: the store outlives every triangulation and every list of neighbours.
+/// A state for each of some pairs, found by the name of the pair. A pair need not be an edge of a network, and names
+/// hold the caller's grains alone: the store outlives every triangulation and every list of neighbours.
 ///
-/// Keys and states lie in two arrays, in the order in which pairs came, where `erase` moves the last into the place of the
-/// one that goes: a loop over them gives the same bits for the same history. Pointers and references to states hold until
-/// a pair comes or goes.
+/// Keys and states lie in two arrays, in the order in which pairs came, where `erase` moves the last into the place of
+/// the one that goes: a loop over them gives the same bits for the same history. Pointers and references to states hold
+/// until a pair comes or goes.
 /// ```
 /// struct wet { double volume; young_laplace<>::warm_state<double> warm; };
 /// pair_store<wet> bridges;
@@ -139,8 +139,8 @@ class pair_store {
     return count;
   }
 
-  /// Gives every pair the name f(key), a `std::optional<pair_key>`; a pair without one is forgotten. For a simulator that
-  /// numbers its grains anew.
+  /// Gives every pair the name f(key), a `std::optional<pair_key>`; a pair without one is forgotten. For a simulator
+  /// that numbers its grains anew.
   /// \pre  no two pairs get the same name
   template <class F>
   void rename(F&& f) {
