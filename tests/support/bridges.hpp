@@ -48,10 +48,9 @@ struct request {
 }
 
 /// Roundings of the request alone in the force, for 2⁻⁵³ each.
-[[nodiscard]] inline double rounding_of_request(const bridge_stiffness<double>& s, const meniscus<double>& m, double gap,
-                                                bool by_volume) {
-  const double by_value =
-      by_volume ? m.volume * s.suction_by_gap_at_volume : m.suction * s.volume_by_gap_at_suction;
+[[nodiscard]] inline double rounding_of_request(const bridge_stiffness<double>& s, const meniscus<double>& m,
+                                                double gap, bool by_volume) {
+  const double by_value = by_volume ? m.volume * s.suction_by_gap_at_volume : m.suction * s.volume_by_gap_at_suction;
   const double by_gap = gap * (by_volume ? s.force_by_gap_at_volume : s.force_by_gap_at_suction);
   return std::ldexp((std::abs(by_gap) + std::abs(by_value)) / std::abs(m.force), -53);
 }

@@ -113,16 +113,16 @@ TEST_CASE("one profile in two charts: gap, volume, force and area are the same")
   REQUIRE(b.ok());
   REQUIRE_FALSE(b.value.by_length);
   const auto pair = pair_of<double>(0.7, 0.5, 0.9);
-  const profile<double> neck{b.value.curvature, b.value.extent, {b.value.circle1, b.value.circle2},
-                             chart::from_extremum};
+  const profile<double> neck{
+      b.value.curvature, b.value.extent, {b.value.circle1, b.value.circle2}, chart::from_extremum};
   const double k = neck.k;
   const auto turned = [&](double r, double angle) {
     return std::atan2(2 * k * r * std::cos(angle), 1 + 2 * k * r * std::sin(angle));
   };
   profile<double> walk = neck;
   walk.by = chart::from_contact;
-  walk.extent = (turned(b.value.contact1, b.value.filling1 + 0.5) + turned(b.value.contact2, b.value.filling2 + 0.9)) /
-                (2 * k);
+  walk.extent =
+      (turned(b.value.contact1, b.value.filling1 + 0.5) + turned(b.value.contact2, b.value.filling2 + 0.9)) / (2 * k);
   const auto s = detail::sample_of<20, false>(pair, neck);
   const auto t = detail::sample_of<20, false>(pair, walk);
   REQUIRE(s.sound);

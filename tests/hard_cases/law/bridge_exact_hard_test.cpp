@@ -16,7 +16,8 @@ auto at(double theta1, double theta2, double r2, double gap, double volume) {
 }
 
 auto by_suction(double theta1, double theta2, double r2, double gap, double suction) {
-  return law_of(radians(theta1), radians(theta2)).bridge(edge<double>{1.0, r2, gap, up}, given_suction<double>{suction});
+  return law_of(radians(theta1), radians(theta2))
+      .bridge(edge<double>{1.0, r2, gap, up}, given_suction<double>{suction});
 }
 
 }  // namespace
@@ -32,8 +33,7 @@ TEST_CASE("at contact the force of a vanishing bridge is 2πR_eff σ (cos θ₁ 
         CAPTURE(volume);
         const auto b = at(20, theta2, r2, 0.0, volume * effective * effective * effective);
         REQUIRE(b.ok());
-        const double limit =
-            2 * pi<double> * effective * (std::cos(radians(20)) + std::cos(radians(theta2)));
+        const double limit = 2 * pi<double> * effective * (std::cos(radians(20)) + std::cos(radians(theta2)));
         const double off = std::abs(b.value.force / limit - 1);
         CHECK(off < before);
         before = off;
@@ -58,8 +58,8 @@ TEST_CASE("on both sides of the fold, one part in 1e10 away: the stable bridge, 
         const auto before = at(theta, theta, r2, limit.value.gap * (1 - 1e-10), v);
         CHECK(before.reason == bridge_status::ok);
         const auto after = at(theta, theta, r2, limit.value.gap * (1 + 1e-10), v);
-        CHECK(after.reason == (limit.value.end == bridge_end::fold ? bridge_status::ruptured
-                                                                   : bridge_status::lopsided));
+        CHECK(after.reason ==
+              (limit.value.end == bridge_end::fold ? bridge_status::ruptured : bridge_status::lopsided));
         CHECK(after.value.force == 0);
         // the bridge nears the last one as the root of the distance
         CHECK(std::abs(before.value.force / limit.value.last.force - 1) < 1e-3);

@@ -18,7 +18,7 @@ struct worst_of {
 
 }  // namespace
 
-TEST_CASE("100,000 random bridges: Maxwell's relation, force at both ends, exchange, homogeneity, agreement of controls") {
+TEST_CASE("100,000 random bridges: Maxwell's relation, force at both ends, exchange, homogeneity, both controls") {
   random_pairs random(11);
   int solved = 0;
   int absent = 0;
@@ -50,8 +50,8 @@ TEST_CASE("100,000 random bridges: Maxwell's relation, force at both ends, excha
     // F = 2πσ r sin(δ + θ) + πr² p at either circle; the error counts by the parts that balance
     const double kappa = std::max(1e-12, 16 * rounding_of_request(s, m, c.e.gap, true));
     const double parts = 2 * pi<double> * std::max(m.contact1, m.contact2);
-    for (const auto& [r, angle] : {std::array{m.contact1, m.filling1 + c.theta1},
-                                   std::array{m.contact2, m.filling2 + c.theta2}}) {
+    for (const auto& [r, angle] :
+         {std::array{m.contact1, m.filling1 + c.theta1}, std::array{m.contact2, m.filling2 + c.theta2}}) {
       const double there = 2 * pi<double> * r * std::sin(angle) + pi<double> * r * r * m.suction;
       ends.add(std::abs(there - m.force) / parts);
     }
@@ -80,8 +80,8 @@ TEST_CASE("100,000 random bridges: Maxwell's relation, force at both ends, excha
     }
   }
   MESSAGE(solved << " solved, " << absent << " absent; Maxwell " << maxwell.value << ", chain " << chain.value
-                 << ", ends " << ends.value << ", exchange " << exchange.value << ", homogeneity "
-                 << homogeneity.value << ", controls " << controls.value);
+                 << ", ends " << ends.value << ", exchange " << exchange.value << ", homogeneity " << homogeneity.value
+                 << ", controls " << controls.value);
   CHECK(other == 0);
   CHECK(solved > many / 2);
   CHECK(lost == 0);
@@ -214,8 +214,7 @@ TEST_CASE("more nodes change nothing beyond 1e-12: ten are enough on random brid
       const auto s = law.stiffness(c.e, fine.value);
       const double kappa = std::max(1e-12, 16 * rounding_of_request(s, fine.value, c.e.gap, true));
       const double parts = 2 * pi<double> * std::max(fine.value.contact1, fine.value.contact2);
-      error.add(std::abs(coarse.value.force - fine.value.force) /
-                (kappa * std::abs(fine.value.force) + 1e-14 * parts));
+      error.add(std::abs(coarse.value.force - fine.value.force) / (kappa * std::abs(fine.value.force) + 1e-14 * parts));
     }
   }
   MESSAGE("worst difference over its tolerance " << error.value);
@@ -247,9 +246,9 @@ TEST_CASE("float agrees with double to 1e-5 where the request's rounding allows,
         const auto s = law.stiffness(e, d.value);
         const double kappa = std::ldexp(rounding_of_request(s, d.value, c.e.gap, true), -11);
         const auto parts = static_cast<long double>(2 * pi<double> * std::max(d.value.contact1, d.value.contact2));
-        extended.add(static_cast<double>(std::abs(one.value.force - two.value.force) /
-                                         ((1e-17L + 32 * static_cast<long double>(kappa)) * std::abs(two.value.force) +
-                                          1e-18L * parts)));
+        extended.add(static_cast<double>(
+            std::abs(one.value.force - two.value.force) /
+            ((1e-17L + 32 * static_cast<long double>(kappa)) * std::abs(two.value.force) + 1e-18L * parts)));
       }
     }
   }

@@ -52,15 +52,13 @@ TEST_CASE("every stable row of open_bridge.csv is found on its branch, to 1e-12 
     CHECK(relative(m.force, force) <= tolerance);
     // what the request's rounding does to the quantity that was not given
     if (q.by_volume) {
-      const double unit = std::ldexp(std::abs(q.pair.gap * s.suction_by_gap_at_volume) +
-                                         std::abs(volume / s.volume_by_suction),
-                                     -53);
-      CHECK(std::abs(m.suction - suction) <= std::max(1e-12 * std::max(std::abs(suction), 1 / m.neck), 16 * unit) +
-                                                 (cylinder ? 1e-11 : 0));
+      const double unit =
+          std::ldexp(std::abs(q.pair.gap * s.suction_by_gap_at_volume) + std::abs(volume / s.volume_by_suction), -53);
+      CHECK(std::abs(m.suction - suction) <=
+            std::max(1e-12 * std::max(std::abs(suction), 1 / m.neck), 16 * unit) + (cylinder ? 1e-11 : 0));
     } else {
-      const double unit = std::ldexp(std::abs(q.pair.gap * s.volume_by_gap_at_suction) +
-                                         std::abs(suction * s.volume_by_suction),
-                                     -53);
+      const double unit =
+          std::ldexp(std::abs(q.pair.gap * s.volume_by_gap_at_suction) + std::abs(suction * s.volume_by_suction), -53);
       CHECK(std::abs(m.volume - volume) <= std::max(1e-12 * volume, 16 * unit));
     }
     // shape: what a rounding of the gap does, by the bridge at a gap that is smaller by a share of the way to the fold
@@ -140,8 +138,8 @@ TEST_CASE("the request of an unstable row gets the stable bridge or a status, ne
     CHECK(b.reason != bridge_status::not_converged);
     if (b.ok()) {
       ++answered;
-      const bool own = relative(b.value.force, t.number(i, "F")) < 1e-7 &&
-                       relative(b.value.contact1, t.number(i, "rc1")) < 1e-7;
+      const bool own =
+          relative(b.value.force, t.number(i, "F")) < 1e-7 && relative(b.value.contact1, t.number(i, "rc1")) < 1e-7;
       CHECK_FALSE(own);
       CHECK(law_of(q.theta1, q.theta2)
                 .stable(q.pair, b.value, q.by_volume ? bridge_control::volume : bridge_control::suction));

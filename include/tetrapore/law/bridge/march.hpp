@@ -154,7 +154,7 @@ class path {
       p.sound = false;
       return;
     }
-    const T (&along_curve)[4] = !regular ? from->direction : what_ == along::gap ? f.by_gap : f.by_value;
+    const T(&along_curve)[4] = !regular ? from->direction : what_ == along::gap ? f.by_gap : f.by_value;
     T unit = p.at.scale;
     if (what_ == along::value) {
       unit = fixed_.by == bridge_control::volume ? unit * unit * unit : T(1) / unit;

@@ -22,11 +22,11 @@ struct bridge_memory {
   double angle2{};
   demand<W> met{};
   profile<W> u{};
-  W by_gap[4]{};     ///< of k, ln extent, ln w1, ln w2
+  W by_gap[4]{};  ///< of k, ln extent, ln w1, ln w2
   W by_value[4]{};
-  W gap_step{};      ///< from the step before
+  W gap_step{};  ///< from the step before
   W value_step{};
-  W bend[4]{};       ///< what the derivative along that step changed over it
+  W bend[4]{};  ///< what the derivative along that step changed over it
   bool warm = false;
   bool bent = false;
 

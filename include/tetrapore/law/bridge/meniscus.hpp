@@ -5,8 +5,8 @@
 
 /// \file
 /// What an exact bridge law says of a bridge.
-/// \par Source  Chareyre et al., EPJ Web Conf. 140, 09027 (2017), §2.3, Eq. (4); the quantities are those of Orr, Scriven
-///              & Rivas, J. Fluid Mech. 67, 723 (1975)
+/// \par Source  Chareyre et al., EPJ Web Conf. 140, 09027 (2017), §2.3, Eq. (4); the quantities are those of Orr,
+///              Scriven & Rivas, J. Fluid Mech. 67, 723 (1975)
 
 namespace tetrapore::inline TETRAPORE_ABI {
 
@@ -16,14 +16,14 @@ enum class bridge_control : unsigned char { volume, suction };
 /// A bridge. \par Units  SI; radii and lengths [m], angles [rad]
 template <real T>
 struct meniscus {
-  T force;      ///< positive where it pulls the pair together
-  T volume;     ///< of the liquid, the caps of both surfaces subtracted; where they overlap, their lens is so twice
-  T suction;    ///< pressure of the gas less that of the liquid
-  T neck;       ///< smallest radius of the profile
-  T filling1;   ///< angle at the grain's centre between the axis and the contact circle; 0 on a plane
-  T filling2;   ///< the same of the second surface
-  T contact1;   ///< radius of the contact circle on the first surface
-  T contact2;   ///< radius of the contact circle on the second surface
+  T force;     ///< positive where it pulls the pair together
+  T volume;    ///< of the liquid, the caps of both surfaces subtracted; where they overlap, their lens is so twice
+  T suction;   ///< pressure of the gas less that of the liquid
+  T neck;      ///< smallest radius of the profile
+  T filling1;  ///< angle at the grain's centre between the axis and the contact circle; 0 on a plane
+  T filling2;  ///< the same of the second surface
+  T contact1;  ///< radius of the contact circle on the first surface
+  T contact2;  ///< radius of the contact circle on the second surface
   // The profile: what areas, stiffness and stability start from
   T curvature;  ///< suction over twice the surface tension
   T extent;     ///< radius of the neck, real or virtual; else length of the profile (see `by_length`)

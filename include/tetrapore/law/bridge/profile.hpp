@@ -192,13 +192,13 @@ struct sample {
   T gap;
   T volume;
   T lambda;
-  T by[4][4];       ///< rows as above
+  T by[4][4];  ///< rows as above
   T lambda_by[4];
-  T turn[2];        ///< the sign of ∂λ/∂δ at each circle, k constant: negative where the circle slides
-  T cosine[2];      ///< of δ + θ
-  T modulus;        ///< p, negative on the side of a bulge
-  T span;           ///< |2k| × arc length
-  bool sound;       ///< false: no such profile
+  T turn[2];    ///< the sign of ∂λ/∂δ at each circle, k constant: negative where the circle slides
+  T cosine[2];  ///< of δ + θ
+  T modulus;    ///< p, negative on the side of a bulge
+  T span;       ///< |2k| × arc length
+  bool sound;   ///< false: no such profile
 };
 
 inline constexpr int match_row = 0;
@@ -431,8 +431,7 @@ template <int N, bool Equal, std::floating_point T>
   using std::sqrt;
   sample<T> s;
   const T k = u.k;
-  s.sound = u.extent > T(0) && u.w[0] > T(0) && u.w[1] > T(0) && k < T(0) &&
-            -k * u.extent < (Equal ? T(3.2) : T(6.4));
+  s.sound = u.extent > T(0) && u.w[0] > T(0) && u.w[1] > T(0) && k < T(0) && -k * u.extent < (Equal ? T(3.2) : T(6.4));
   if (!s.sound) {
     return s;
   }

@@ -111,9 +111,10 @@ inline void choose_chart(const surface_pair<T>& pair, profile<T>& u) noexcept {
   }
   const T least = smaller(p[0], p[1]);
   const bool bulge = im[0] > T(0) && im[1] > T(0) && u.k < T(0);  // both circles on the way to it
-  const bool between = im[0] < T(0) && im[1] < T(0);            // a neck between them
-  const bool neck = !(u.k < T(0)) || (!bulge && (between || re[0] + re[1] > T(0)) && least > T(0.1) && lambda[0] > T(0) && lambda[1] > T(0) &&
-                                      re[0] > T(-0.9) * p[0] && re[1] > T(-0.9) * p[1]);
+  const bool between = im[0] < T(0) && im[1] < T(0);              // a neck between them
+  const bool neck =
+      !(u.k < T(0)) || (!bulge && (between || re[0] + re[1] > T(0)) && least > T(0.1) && lambda[0] > T(0) &&
+                        lambda[1] > T(0) && re[0] > T(-0.9) * p[0] && re[1] > T(-0.9) * p[1]);
   const auto length = [&](const T& turned) {
     return T(0.5) * (atan2(im[0], re[0]) - turned + (Equal ? T(0) : atan2(im[1], re[1]) - turned)) / u.k;
   };
@@ -133,12 +134,12 @@ inline void choose_chart(const surface_pair<T>& pair, profile<T>& u) noexcept {
 template <std::floating_point T>
 struct found {
   profile<T> u;
-  sample<T> at;         ///< where the last step was taken from
-  T lambda;             ///< after the last step, as the volume
+  sample<T> at;  ///< where the last step was taken from
+  T lambda;      ///< after the last step, as the volume
   T volume;
-  T by_gap[4];          ///< the unknowns by gap / scale, the given value constant
-  T by_value[4];        ///< the unknowns by the given value: volume / scale³ or k × scale, gap constant
-  T least;              ///< (step of the unknowns per unit of gap)⁻¹: how near the fold
+  T by_gap[4];    ///< the unknowns by gap / scale, the given value constant
+  T by_value[4];  ///< the unknowns by the given value: volume / scale³ or k × scale, gap constant
+  T least;        ///< (step of the unknowns per unit of gap)⁻¹: how near the fold
   bool converged;
 };
 
@@ -195,8 +196,8 @@ template <bool Equal, std::floating_point T>
     index.at_suction = (zero ? 1 : 0) + ((slope + b * field) * (zero ? T(-1) : T(1)) < T(0) ? 1 : 0);
     index.slides = index.at_suction > 1;
   } else {
-    index.at_suction = (f.at.turn[0] * f.at.cosine[0] < T(0) ? 1 : 0) +
-                       (f.at.turn[1] * f.at.cosine[1] < T(0) ? 1 : 0) + (stiffens ? 1 : 0) + extrema(f.at) - 1;
+    index.at_suction = (f.at.turn[0] * f.at.cosine[0] < T(0) ? 1 : 0) + (f.at.turn[1] * f.at.cosine[1] < T(0) ? 1 : 0) +
+                       (stiffens ? 1 : 0) + extrema(f.at) - 1;
     index.slides = Equal && f.at.turn[0] * f.at.cosine[0] < T(0);
   }
   index.at_volume = index.at_suction - (swells ? 1 : 0);

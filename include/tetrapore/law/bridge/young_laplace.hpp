@@ -10,11 +10,25 @@ namespace tetrapore::inline TETRAPORE_ABI {
 
 /// The bridge between two wetted surfaces that solves the equation of Young and Laplace without gravity: two spheres of
 /// any radii, or a sphere and a plane, apart, in contact or overlapping, of a given volume or at a given suction.
-/// Of all profiles the stable one that comes, as the gap widens, from the bridge at contact.
+/// Of all profiles the stable one that comes, as the gap widens, from the bridge at contact. `Nodes` is half the order
+/// of the quadrature; next to a fold twice as many are used.
+///
+/// Beyond the fold: `ruptured`. An equal pair (radii and angles) whose liquid slides to one side before: `lopsided`, at
+/// any gap from there on. Too little suction, or a pair pressed together with too much liquid: `flooded`. How the gap
+/// or the value came to be does not matter; a warm state changes the time, never the bridge. Where the surfaces
+/// overlap, the volume is that of the profile less both caps: their common lens counts twice.
 /// \par Units   surface tension [N/m], angles [rad], else SI
-/// \par Domain  0 ≤ θ < 90° on either surface (angle k on the surface of radius k); gap > −R; any suction
-/// \par Accuracy  see tests/truth/law/bridge_table_test.cpp
-/// \par Source  Chareyre et al., EPJ Web Conf. 140, 09027 (2017), §2.3, Eq. (4); profiles of Delaunay (profile.hpp)
+/// \par Domain  0 ≤ θ < 90° on either surface (angle k on the surface of radius k); gap > −R; any volume or suction.
+///              float, double, long double; float computes in double
+/// \par Accuracy  of the force, κ being what a rounding of gap and value does to it: max(1e-12, 16 κ) on the 402 stable
+///                rows of open_bridge.csv (worst 0.3 of that) and on random bridges against 24 nodes (worst 0.31),
+///                unless the force nearly vanishes: then 1e-14 of 2πσ × radius of the contact circle. Stiffness 1e-10
+///                and 1.8e-15 over the distance to the fold (worst 0.2 of that). Folds and lost symmetry 1e-10.
+///                Maxwell's relation 4e-13, force at both ends 1.4e-13 of its parts, work against energy 4e-14. Stability agrees
+///                with finite elements on 2,000 bridges. long double with 20 nodes 1e-17 and 32 κ; float 6e-8. On 10⁵
+///                random pairs (radii 1e-4 to a plane, angles to 89.9°) every request at a volume was answered
+/// \par Source  Chareyre et al., EPJ Web Conf. 140, 09027 (2017), §2.3, Eq. (4); profiles of Delaunay (profile.hpp);
+///              stability by Jacobi's field, derived here (solve_profile.hpp)
 template <int Nodes = 10>
 struct young_laplace {
   static_assert(Nodes >= 4);
