@@ -71,10 +71,13 @@ TEST_CASE("bad radii, gaps, normals and viscosities are refused, with NaN in eve
   refuses(wall, inf);
 }
 
-TEST_CASE("a gap so narrow that its resistance overflows is touching, not infinity") {
+TEST_CASE(
+    "a gap so narrow that its resistance overflows is touching, not infinity; lengths that underflow are refused") {
   CHECK(reason(leading, {1e200, 1e200, 1e-200, up}) == pair_status::touching);
   CHECK(reason(leading, {1, 1, 5e-324, up}) == pair_status::touching);
   CHECK(reason(leading, {1, 1, 1e-300, up}) == pair_status::ok);
+  CHECK(reason(leading, {1e-200, 1e-200, 1e-202, up}) == pair_status::invalid_input);
+  CHECK(reason(resolved, {1e-200, 1e-200, 1e-202, up}) != pair_status::ok);
 }
 
 TEST_CASE("beyond its range of radius ratios and gaps the resolved law says so") {
@@ -128,7 +131,8 @@ TEST_CASE("the logarithm of Eq. 3 keeps its digits at any gap") {
     const long double x = static_cast<long double>(y);
     const long double exact = x < 0.01L ? x * (0.5L - x * (1 / 6.0L - x * (1 / 12.0L - x * (1 / 20.0L - x / 30))))
                                         : (1 + 1 / x) * std::log1p(x) - 1;
-    CHECK(leading_order::logarithm(y) == doctest::Approx(static_cast<double>(exact)).epsilon(y < 1 ? 1e-13 : 1e-15));
+    CHECK(leading_order::logarithm(y, 1 / y) ==
+          doctest::Approx(static_cast<double>(exact)).epsilon(y < 1 ? 1e-13 : 1e-15));
   }
 }
 

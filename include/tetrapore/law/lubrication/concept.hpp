@@ -92,6 +92,9 @@ template <real T>
 template <real T>
 [[nodiscard]] constexpr outcome<pair_resistance<T>, pair_status> resistance_of(const edge<T>& e, T squeeze, T shear,
                                                                                T coupling, T roll, T twist) noexcept {
+  if (!(squeeze > T(0))) {  // lengths whose products underflow
+    return no_resistance<T>(pair_status::invalid_input);
+  }
   if (!(squeeze < T(infinity<T>))) {
     return no_resistance<T>(pair_status::touching);
   }

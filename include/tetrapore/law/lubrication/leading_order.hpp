@@ -35,21 +35,27 @@ struct leading_order {
     if (first != pair_status::ok) {
       return detail::no_resistance<T>(first);
     }
-    const T ratio = e.radius1 / e.radius2;
-    const T x2 = T(1) / (T(1) + ratio);
-    const T x1 = ratio * x2;
-    const T star = e.radius1 * x2;
-    const T y = T(4) * star / e.gap;
+    // no quotient waits for another: the divisions run side by side
+    const bool wall = e.with_plane();
+    const T sum = wall ? T(1) : e.radius1 + e.radius2;
+    const T product = wall ? e.radius1 : e.radius1 * e.radius2;
+    const T per_sum = T(1) / sum;
+    const T x1 = wall ? T(0) : e.radius1 * per_sum;
+    const T x2 = wall ? T(1) : e.radius2 * per_sum;
+    const T star = product * per_sum;
+    const T thin = sum * e.gap;
+    const T y = T(4) * product / thin;
+    const T inverse = thin / (T(4) * product);
     const T scale = detail::constant<T>(pi<long double>) * T(static_cast<underlying_t<T>>(viscosity.get()));
-    const T shearing = scale * star * logarithm(y) * T(0.8);
+    const T shearing = scale * star * logarithm(y, inverse) * T(0.8);
     const T squeeze = T(1.5) * scale * star * y;
     return detail::resistance_of(e, squeeze, shearing * (T(4) * (x1 * x1 + x2 * x2) + T(2) * x1 * x2),
                                  T(3) * shearing * star * (x2 - x1), T(6) * shearing * star * star, T(0));
   }
 
-  /// Λ by y = 4a*/h: (1 + 1/y) ln(1 + y) − 1, where it is small by its series y/2 − y²/6 + y³/12 − …
+  /// Λ by y = 4a*/h and 1/y: (1 + 1/y) ln(1 + y) − 1, where it is small by its series y/2 − y²/6 + y³/12 − …
   template <real T>
-  [[nodiscard]] static T logarithm(const T& y) noexcept {
+  [[nodiscard]] static T logarithm(const T& y, const T& inverse) noexcept {
     using std::log;
     if (y < T(0.0625)) {
       T sum(0);
@@ -58,8 +64,7 @@ struct leading_order {
       }
       return y * sum;
     }
-    const T l = log(T(1) + y);
-    return l + l / y - T(1);
+    return (T(1) + inverse) * log(T(1) + y) - T(1);
   }
 };
 static_assert(lubrication_law<leading_order, double>);

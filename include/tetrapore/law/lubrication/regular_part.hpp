@@ -87,14 +87,16 @@ inline constexpr auto regular_of_spheres_as = converted<V>(regular_of_spheres);
 template <class V>
 inline constexpr auto regular_of_plane_as = converted<V>(regular_of_plane);
 
-/// The polynomial in x of one lane.
-template <std::size_t Row, real T, std::size_t N>
+/// The polynomial in x of one lane, in two halves that do not wait for each other.
+template <real T, std::size_t N>
 [[nodiscard]] constexpr T lane(const std::array<regular_lanes<underlying_t<T>>, N>& table, std::size_t k,
-                               const T& x) noexcept {
-  if constexpr (Row + 1 == N) {
-    return T(table[Row][k]);
+                               [[maybe_unused]] const T& x, [[maybe_unused]] const T& square) noexcept {
+  if constexpr (N == 1) {
+    return T(table[0][k]);
   } else {
-    return T(table[Row][k]) + x * lane<Row + 1, T>(table, k, x);
+    static_assert(N == 5);
+    return (T(table[0][k]) + x * T(table[1][k])) +
+           square * (T(table[2][k]) + (x * T(table[3][k]) + square * T(table[4][k])));
   }
 }
 
@@ -102,14 +104,16 @@ template <std::size_t Row, real T, std::size_t N>
 template <real T, std::size_t N>
 [[nodiscard]] inline std::array<T, 5> regular_part(const std::array<regular_lanes<underlying_t<T>>, N>& table,
                                                    const T& x, const T& p, const T& logarithm) noexcept {
+  const T square = x * x;
   regular_lanes<T> sum;
   for (std::size_t k = 0; k < sum.size(); ++k) {
-    sum[k] = lane<0, T>(table, k, x);
+    sum[k] = lane<T>(table, k, x, square);
   }
   const T slow = p * logarithm;
+  const T p2 = p * p;
   std::array<T, 5> out;
   for (std::size_t k = 0; k < out.size(); ++k) {
-    out[k] = sum[k] + p * (sum[5 + k] + p * (sum[10 + k] + p * (sum[15 + k] + p * sum[20 + k]))) + slow * sum[25 + k];
+    out[k] = (sum[k] + p * sum[5 + k]) + p2 * ((sum[10 + k] + p * sum[15 + k]) + p2 * sum[20 + k]) + slow * sum[25 + k];
   }
   return out;
 }

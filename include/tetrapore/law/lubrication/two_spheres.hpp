@@ -32,29 +32,31 @@ struct two_spheres {
     if (!(e.radius1 < T(10) * margin * e.radius2) || !(e.radius2 < T(10) * margin * e.radius1)) {
       return detail::no_resistance<T>(pair_status::not_covered);
     }
-    const T per_sum = T(1) / (e.radius1 + e.radius2);
-    const T star = e.radius1 * e.radius2 * per_sum;
+    // few quotients wait for another: the divisions run side by side
+    const T sum = e.radius1 + e.radius2;
+    const T apart = e.radius1 - e.radius2;
+    const T product = e.radius1 * e.radius2;
+    const T thin = sum * e.gap;
+    const T per_sum = T(1) / sum;
+    const T x = T(4) * apart * apart / (sum * sum + T(0.5) * apart * apart) - T(1);
+    const T y = T(4) * product / thin;
+    const T p = thin / (thin + T(4) * product);
+    const T star = product * per_sum;
     if (!(e.gap < T(2) * margin * star)) {
       return detail::no_resistance<T>(pair_status::too_far);
     }
-    const T beta = (e.radius1 - e.radius2) * per_sum;
+    const T beta = apart * per_sum;
     const T square = beta * beta;
-    const T bulk = T(1) + T(3) * square;
-    const T soft = T(1) + T(0.5) * square;
-    const T inverse = T(1) / (bulk * soft);
-    const T y = T(4) * star / e.gap;
-    const T p = T(1) / (T(1) + y);
     const T logarithm = log(T(1) + y);
-    const auto rest = detail::regular_part(detail::regular_of_spheres_as<underlying_t<T>>,
-                                           T(4) * square * bulk * inverse - T(1), p, logarithm);
+    const auto rest = detail::regular_part(detail::regular_of_spheres_as<underlying_t<T>>, x, p, logarithm);
     const T scale = detail::constant<T>(pi<long double>) * T(static_cast<underlying_t<T>>(viscosity.get())) * star;
-    const auto tenths = [](double x) { return detail::constant<T>(static_cast<long double>(x) / 10); };
-    return detail::resistance_of(e,
-                                 T(6) * scale * (y * T(0.25) + (tenths(4.5) - T(0.25) * square) * logarithm + rest[0]),
-                                 scale * ((T(2) + tenths(12) * square) * logarithm + rest[1]),
-                                 scale * star * beta * (rest[2] - tenths(24) * logarithm),
-                                 scale * star * star * (tenths(48) * logarithm + rest[3]),
-                                 scale * star * star * rest[4] * (soft * soft * inverse * inverse));
+    const T bulk = T(1) + T(3) * square;
+    const auto tenths = [](double of) { return detail::constant<T>(static_cast<long double>(of) / 10); };
+    return detail::resistance_of(
+        e, T(6) * scale * (y * T(0.25) + (tenths(4.5) - T(0.25) * square) * logarithm + rest[0]),
+        scale * ((T(2) + tenths(12) * square) * logarithm + rest[1]),
+        scale * star * beta * (rest[2] - tenths(24) * logarithm),
+        scale * star * star * (tenths(48) * logarithm + rest[3]), scale * star * star * rest[4] / (bulk * bulk));
   }
 };
 static_assert(lubrication_law<two_spheres, double>);
