@@ -4,12 +4,13 @@
 #include "tetrapore/core/required.hpp"
 #include "tetrapore/law/bridge/concept.hpp"
 
-/// \file What the closed forms of a bridge share: the checks of their input, their reduced variables, and the wrapper
-/// that carries them into an overlap. The errors that their pages state are relative to the exact force of
+/// \file
+/// What the closed forms of a bridge share: the checks of their input, their reduced variables, and the wrapper that
+/// carries them into an overlap. The errors that their pages state are relative to the exact force of
 /// young_laplace, for one contact angle of 0 to 50° on both surfaces, v = V/R³ (R of Derjaguin) from 1e-3 to 0.1 unless
 /// said otherwise, and gaps up to 0.9 of the rupture gap, where the force has fallen to some percent of that at
-/// contact: worst / root of the mean square (tests/truth/law/closed_form_bridge_map_test.cpp). \par Source  Chareyre et
-/// al., EPJ Web Conf. 140, 09027 (2017), §2.3, whose bridges these forms approximate
+/// contact: worst / root of the mean square (tests/truth/law/closed_form_bridge_map_test.cpp).
+/// \par Source  Chareyre et al., EPJ Web Conf. 140, 09027 (2017), §2.3, whose bridges these forms approximate
 
 namespace tetrapore::inline TETRAPORE_ABI {
 
