@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Lubrication of a pair, one row per law and scalar: time for the resistance, and for the forces and torques on both
-// grains; `error`, the worst relative difference of the forces from the exact two-sphere table up to h/a = 0.1 (squeeze,
-// shear, coupling, roll and twist of two spheres free in a liquid; the leading order: of its squeeze up to 0.01);
-// `failed`, hard cases that came out wrong: no answer where there is one, an answer where there is none. Pairs are
-// distinct, in random order, of ratios 1 to 0.1.
+// grains; `error`, the worst relative difference from the exact two-sphere table up to h/a = 0.1, of squeeze, shear,
+// coupling, roll and twist of two spheres free in a liquid (leading order: of its squeeze up to 0.01; sphere and plane:
+// of the squeeze); `failed`, hard cases that came out wrong: no answer where there is one, an answer where there is
+// none. Pairs are distinct, in random order, of ratios 1 to 0.1.
 
 #include "support/csv_table.hpp"
 #include "support/pairs.hpp"

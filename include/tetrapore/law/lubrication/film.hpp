@@ -55,8 +55,8 @@ struct film_scheme {
 ///
 /// Asperities give way with the stiffness k_a where the film begins to be thinner than they are, and without bound
 /// where it vanishes: plain springs under a load beyond k_a u_a would let the film thin out of the numbers. u is the
-/// thickness of the film, u_n the gap of the undeformed grains (negative in an overlap), ν = h × squeeze resistance, 6 π
-/// μ a*² to leading order.
+/// thickness of the film, u_n the gap of the undeformed grains (negative in an overlap), ν = h × squeeze resistance,
+/// 6 π μ a*² to leading order.
 /// \par Units  drag [N s], stiffnesses [N/m], height [m]
 template <real T>
 struct elastic_film {
