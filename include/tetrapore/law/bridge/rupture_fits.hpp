@@ -4,7 +4,7 @@
 #include "tetrapore/law/bridge/closed_form.hpp"
 
 /// \file
-/// Gaps at which a bridge of given volume breaks, by fits: plain numbers, for they are compared and never differentiated.
+/// Gaps at which a bridge of given volume breaks, by fits: plain numbers, for they are compared, never differentiated.
 
 namespace tetrapore::inline TETRAPORE_ABI {
 
