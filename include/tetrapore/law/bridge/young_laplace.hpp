@@ -322,7 +322,10 @@ struct young_laplace {
     for (int i = 0; i < detail::unknowns<Equal>; ++i) {
       lambda_gap += f.at.lambda_by[i] * f.by_gap[i];
     }
-    return std::abs(lambda_gap) * std::abs(f.at.gap) > W(10) * std::abs(f.at.lambda);
+    // the two sides of a virtual neck cancel
+    const bool beside = f.u.by == detail::chart::from_extremum && f.u.k < W(0) &&
+                        (f.at.cosine[0] < W(0)) != (f.at.cosine[1] < W(0));
+    return beside || std::abs(lambda_gap) * std::abs(f.at.gap) > W(6) * std::abs(f.at.lambda);
   }
 
   template <class T, bool Equal, class W = work<T>>
