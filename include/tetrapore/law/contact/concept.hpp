@@ -7,6 +7,7 @@
 
 /// \file
 /// What a contact law is: forces of a pair that remembers its past, over one step in time.
+/// \par Source  Cundall & Strack 1979, Géotechnique 29, 47: contacts step by step; the film in series: own derivation
 
 namespace tetrapore::inline TETRAPORE_ABI {
 
