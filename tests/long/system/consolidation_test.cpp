@@ -95,13 +95,14 @@ bool load(const std::filesystem::path& path, progress& p, support::dem& d) {
 
 }  // namespace
 
-// Terzaghi's column has one permeability and one stiffness all along; in a random packing a layer has its own, and the
-// pressure in it follows them. So the column must be wide: with 150 grains in a layer (a tenth of the column) the worst
-// of fifty layers missed by 1.7 and 3.6 % in two columns, and that falls with the root of the grains in a layer.
+// Terzaghi's column has one permeability and one stiffness up to its ends. Grains lie looser at the piston, and more
+// water passes there: to the rest of the column it is as if it drained half a diameter below the piston. So the error
+// of the layers at the top falls with the height: in columns 35 diameters high it was 1.7 to 3.7 % at T = 0.05,
+// whatever the width and the inertia of the column.
 TEST_CASE("a tall column consolidates within 3 % of Terzaghi, in settlement and in the pressure of each layer") {
   const std::filesystem::path folder = TETRAPORE_CAMPAIGN_DIR;
   std::filesystem::create_directories(folder);
-  constexpr std::size_t grains = 4000;
+  constexpr std::size_t grains = 3000;
   for (const std::uint64_t seed : {1U, 2U}) {
     const auto path = folder / ("consolidation_" + std::to_string(seed) + ".json");
     if (std::filesystem::exists(path)) {
@@ -112,7 +113,7 @@ TEST_CASE("a tall column consolidates within 3 % of Terzaghi, in settlement and 
     support::oedometer_options o;
     o.grains = grains;
     o.seed = seed;
-    o.slenderness = 4.9;  // 35 diameters high
+    o.slenderness = 12.5;  // 60 diameters high
     o.end = 1.5;
     o.rebuild_every = 2000;
     support::dem column = support::settled_column(support::loose_column(o), o);
