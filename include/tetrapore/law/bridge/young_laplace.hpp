@@ -24,11 +24,11 @@ namespace tetrapore::inline TETRAPORE_ABI {
 ///                rows of open_bridge.csv (worst 0.3 of that) and on random bridges against 24 nodes (worst 0.31),
 ///                unless the force nearly vanishes: then 1e-14 of 2πσ × radius of the contact circle. Stiffness 1e-10
 ///                and 1.8e-15 over the distance to the fold (worst 0.2 of that). Folds and lost symmetry 1e-10.
-///                Maxwell's relation 4e-13, force at both ends 1.4e-13 of its parts, work against energy 4e-14. Stability
-///                agrees with finite elements on 2,000 bridges. long double with 20 nodes 1e-17 and 32 κ; float 6e-8. On 10⁵
-///                random pairs (radii 1e-4 to a plane, angles to 89.9°) every request at a volume was answered,
-///                and all but 1 in 10⁴ at a suction, those at which two curves of bridges all but cross near a cylinder
-///                (`not_converged`)
+///                Maxwell's relation 4e-13, force at both ends 1.4e-13 of its parts, work against energy 4e-14.
+///                Stability agrees with finite elements on 2,000 bridges. long double with 20 nodes 1e-17 and 32 κ;
+///                float 6e-8. On 10⁵ random pairs (radii 1e-4 to a plane, angles to 89.9°) every request at a volume
+///                was answered, and all but 1 in 10⁴ at a suction, those at which two curves of bridges all but cross
+///                near a cylinder (`not_converged`)
 /// \par Source  Chareyre et al., EPJ Web Conf. 140, 09027 (2017), §2.3, Eq. (4); profiles of Delaunay (profile.hpp);
 ///              stability by Jacobi's field, derived here (solve_profile.hpp)
 template <int Nodes = 10>
