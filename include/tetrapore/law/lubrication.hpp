@@ -3,6 +3,7 @@
 
 /// \file
 /// All lubrication laws.
+/// \par Source  each header names its own; what they share: Chareyre et al. 2017, §2.2, Eq. (2) and (3)
 
 #include "tetrapore/law/lubrication/apply.hpp"
 #include "tetrapore/law/lubrication/concept.hpp"

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A law is noexcept: a step of a simulator calls it in the middle of a loop.
+#include "tetrapore/law/bridge/concept.hpp"
+
+using answer = tetrapore::outcome<tetrapore::bridge_pull<double>, tetrapore::bridge_status>;
+
+struct mine {
+  answer bridge(const tetrapore::edge<double>&, tetrapore::given_volume<double>) const noexcept {
+    return {{1.0}, tetrapore::bridge_status::ok};
+  }
+};
+static_assert(tetrapore::bridge_law<mine>);

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A law is noexcept: a step of a simulator calls it in the middle of a loop.
+// expect: state\). (is not .noexcept|may throw)
+#include "tetrapore/law/contact/concept.hpp"
+
+using answer = tetrapore::outcome<tetrapore::contact_forces<double>, tetrapore::contact_status>;
+using motion = tetrapore::pair_motion<double>;
+
+struct mine {
+  double start(const tetrapore::edge<double>& e) const noexcept { return e.gap; }
+  answer step(const tetrapore::edge<double>&, const motion&, double, double&) const {
+    return {{}, tetrapore::contact_status::ok};
+  }
+};
+static_assert(tetrapore::contact_law<mine>);
