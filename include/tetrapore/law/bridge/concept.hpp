@@ -66,7 +66,7 @@ struct given_suction {
 /// Syntax: `l.bridge(edge, given)`, const and noexcept, gives an outcome whose value has a member `force` [N], positive
 /// where it pulls the pair together. `Given` is given_volume or given_suction.
 /// Semantics: the same when the pair is seen from its other end (with its angles); scales as surface tension × length
-/// when lengths scale; minus the derivative of the energy by the gap where the law knows one; 0 where the bridge is
+/// when lengths scale; the derivative of the energy by the gap where the law knows one; 0 where the bridge is
 /// absent and NaN where the law has no answer; pure: no state, safe in threads.
 /// \par Source  Chareyre et al., EPJ Web Conf. 140, 09027 (2017), §2.3, Eq. (4)
 template <class L, class T = double, class Given = given_volume<T>>

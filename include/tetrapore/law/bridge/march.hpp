@@ -200,6 +200,16 @@ template <std::floating_point T>
   return p.at.turn[0] * p.at.cosine[0];
 }
 
+/// Whether the curve turns so far between two waypoints that they may lie on two curves.
+template <std::floating_point T>
+[[nodiscard]] inline bool turned(const waypoint<T>& from, const waypoint<T>& to) noexcept {
+  T cosine(0);
+  for (int i = 0; i < 4; ++i) {
+    cosine += from.direction[i] * to.direction[i];
+  }
+  return from.u.by == to.u.by && cosine < T(0.9);
+}
+
 /// Finds where between two waypoints of an equal pair the circles begin to slide; false if they do not.
 template <int N, bool Equal, std::floating_point T>
 [[nodiscard]] inline bool slides(const path<Equal, T>& along_path, const waypoint<T>& from, const waypoint<T>& to,
@@ -251,8 +261,12 @@ template <int N, bool Equal, std::floating_point T>
       trip.how = arrival::at_target;
       return trip;
     }
-    const waypoint<T> next = along_path.template advance<N>(from, h, &iterations, true);
-    if (!next.sound || iterations > 5) {
+    waypoint<T> next = along_path.template advance<N>(from, h, &iterations, true);
+    if (next.sound && iterations <= 5 && sign * (next.reach - target) >= T(0)) {
+      next = along_path.template advance<N>(from, h, &iterations);  // a rough one may only seem to have passed
+      iterations = next.sound ? 3 : 12;
+    }
+    if (!next.sound || iterations > 5 || turned(from, next)) {
       h *= T(0.4);
       if (h < T(1e-7)) {
         trip.end = from;
@@ -313,8 +327,10 @@ template <int N, bool Equal, std::floating_point T>
           at_high = mid;
         }
         const T least = smaller(std::abs(at_low.slope), std::abs(at_high.slope));
-        if (isfinite(target) && sign * (target - at_low.reach) >
-                                    T(2) * std::abs(at_low.slope) * (high - low) + T(0.02) * std::abs(target)) {
+        const bool ordered = !Equal || (hold(at_low) > T(0)) == (hold(at_high) > T(0));  // no slide between the two
+        if (ordered && isfinite(target) &&
+            sign * (target - at_low.reach) >
+                T(2) * std::abs(at_low.slope) * (high - low) + T(0.02) * std::abs(target)) {
           break;  // the target is far beyond any fold of a curve that bends down
         }
         if (sign * (mid.reach - target) >= T(0) ||
@@ -329,8 +345,10 @@ template <int N, bool Equal, std::floating_point T>
         }
         continue;
       }
-      const waypoint<T>& top = sign * (at_high.reach - at_low.reach) > T(0) ? at_high : at_low;
-      if (slid(at_low, low)) {
+      // the secants may close in on the fold from either side alone: what is near it is the higher of the two
+      const bool beyond = sign * (at_high.reach - at_low.reach) > T(0);
+      const waypoint<T>& top = beyond ? at_high : at_low;
+      if (slid(top, beyond ? high : low)) {
         return trip;
       }
       if (sign * (top.reach - target) < T(0)) {

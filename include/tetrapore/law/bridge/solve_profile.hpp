@@ -201,6 +201,9 @@ template <bool Equal, std::floating_point T>
     index.slides = Equal && f.at.turn[0] * f.at.cosine[0] < T(0);
   }
   index.at_volume = index.at_suction - (swells ? 1 : 0);
+  // where the circles begin to slide dλ/dg changes its sign with them; rounding may let it go first
+  index.at_suction = index.at_suction < 0 ? 0 : index.at_suction;
+  index.at_volume = index.at_volume < 0 ? 0 : index.at_volume;
   return index;
 }
 

@@ -327,7 +327,9 @@ struct young_laplace {
     // the two sides of a virtual neck cancel
     const bool beside =
         f.u.by == detail::chart::from_extremum && f.u.k < W(0) && (f.at.cosine[0] < W(0)) != (f.at.cosine[1] < W(0));
-    return beside || std::abs(lambda_gap) * std::abs(f.at.gap) > W(6) * std::abs(f.at.lambda);
+    // a neck so thin that the nodes may miss it
+    const bool pinched = f.u.by == detail::chart::from_contact && std::abs(f.at.modulus - W(1)) < W(0.05);
+    return beside || pinched || std::abs(lambda_gap) * std::abs(f.at.gap) > W(6) * std::abs(f.at.lambda);
   }
 
   template <class T, bool Equal, class W = work<T>>
