@@ -36,7 +36,7 @@ inline void write_sweep(const std::filesystem::path& folder, const restitution_s
   curve wet{"film and bridge", {}, {}, "#2f855a", "", false, 2.5};
   curve film_theory{"1 − St_c/St, hard rough grains", {}, {}, "#2b6cb0", "6 4", false, 1.5};
   curve wet_theory{"the same, less what the bridge takes", {}, {}, "#2f855a", "6 4", false, 1.5};
-  curve inward{"1 − St_c/2St: no film on the way out (Davis et al.)", {}, {}, "#888", "2 4", false, 1.5};
+  curve inward{"1 − St_c/2St: no suction on the way out", {}, {}, "#888", "2 4", false, 1.5};
   for (const restitution_row& r : s.rows) {
     table.row(r.stokes, r.film, r.wet, r.film_theory, r.wet_theory, r.inward_theory);
     for (const auto& [to, y] : {std::pair{&film, r.film},

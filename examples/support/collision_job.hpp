@@ -18,7 +18,7 @@ namespace support {
 struct collision_job {
   wet_material material;
   encounter pair;
-  std::size_t points = 24;  ///< of the sweep; 0: none
+  std::size_t points = 32;  ///< of the sweep; 0: none
   double sweep_to = 100;    ///< highest Stokes number
   cloud_options cloud;
   std::filesystem::path out = "wet_collision_out";

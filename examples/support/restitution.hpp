@@ -72,7 +72,8 @@ struct restitution_sweep {
   double largest_defect = 0;  ///< of the energy
 };
 
-/// Lets the pair meet in liquids of other viscosities.
+/// Lets the pair meet in liquids of other viscosities: at so many Stokes numbers up to the highest, and at the critical
+/// ones.
 [[nodiscard]] inline restitution_sweep sweep(const wet_material& m, const encounter& e, std::size_t points,
                                              double highest) {
   restitution_sweep s;
@@ -85,11 +86,6 @@ struct restitution_sweep {
     s.largest_defect = std::max(s.largest_defect, std::abs(c.energy_defect));
     return c;
   };
-  for (std::size_t k = 1; k <= points; ++k) {
-    const double stokes = highest * static_cast<double>(k) / static_cast<double>(points);
-    s.rows.push_back({stokes, meet(stokes, false).restitution, meet(stokes, true).restitution, s.theory.film(stokes),
-                      s.theory.wet(stokes), s.theory.inward(stokes)});
-  }
   const auto critical = [&](bool bridge) {
     double sticks = 0.1;
     double rebounds = 1e4;
@@ -104,6 +100,21 @@ struct restitution_sweep {
   };
   s.critical_film = critical(false);
   s.critical_wet = critical(true);
+  std::vector<double> numbers;
+  for (std::size_t k = 1; k <= points; ++k) {  // closer together where they are small
+    const double part = static_cast<double>(k) / static_cast<double>(points);
+    numbers.push_back(highest * part * part);
+  }
+  for (const double corner : {s.critical_film, s.critical_wet, s.theory.critical_film(), s.theory.critical_wet()}) {
+    if (corner < highest) {
+      numbers.push_back(corner);
+    }
+  }
+  std::sort(numbers.begin(), numbers.end());
+  for (const double stokes : numbers) {
+    s.rows.push_back({stokes, meet(stokes, false).restitution, meet(stokes, true).restitution, s.theory.film(stokes),
+                      s.theory.wet(stokes), s.theory.inward(stokes)});
+  }
   return s;
 }
 
