@@ -20,13 +20,18 @@ using table_8 = bridge_table<8>;
 
 struct material {
   double radius2, angle1, angle2, overlap;
+  double bound = 1e-6;  ///< of the error over the largest force
+  double rupture_bound = 1e-10;
 };
 
 }  // namespace
 
+// At 30° the bridges of little liquid end at a fold and those of much liquid lopsided, right before it: where the one
+// gives way to the other the force is not smooth in the volume, and the table states 1.2e-5.
 TEST_CASE("a table of exact bridges is built to 1e-6 of the largest force, and keeps its error between its nodes") {
-  for (const material& m : {material{1, 0, 0, 0}, material{1, 0, 0, 0.01}, material{1, 40, 40, 0},
-                            material{0.5, 0, 0, 0}, material{infinity<double>, 10, 10, 0}, material{1, 20, 50, 0}}) {
+  for (const material& m :
+       {material{1, 0, 0, 0}, material{1, 0, 0, 0.01}, material{1, 30, 30, 0, 2e-5, 1e-8}, material{1, 40, 40, 0},
+        material{0.5, 0, 0, 0}, material{infinity<double>, 10, 10, 0}, material{1, 20, 50, 0}}) {
     CAPTURE(m.radius2);
     CAPTURE(m.angle1);
     CAPTURE(m.angle2);
@@ -38,8 +43,8 @@ TEST_CASE("a table of exact bridges is built to 1e-6 of the largest force, and k
                                                  .largest_volume = 0.1,
                                                  .deepest_overlap = m.overlap});
     REQUIRE(report.reason == bridge_status::ok);
-    CHECK(report.error < 1e-6);
-    CHECK(report.rupture_error < 1e-10);
+    CHECK(report.error < m.bound);
+    CHECK(report.rupture_error < m.rupture_bound);
     const tabulated<table_8> law{t.get()};
     std::mt19937_64 random(9);
     std::uniform_real_distribution<double> uniform(0, 1);
