@@ -27,7 +27,11 @@ stands, and *max rel err per condition* the one to hold against *stated accuracy
 
 Bridges and resistances of a pair have no such condition: the exact bridge is held, for each of its results, to the larger of its
 stated accuracy and 16 times what rounding the gap and the given volume or suction does to that result, *per condition* scaled
-accordingly; an approximation to the error that it states, if it states one. *outside* are rows that a law says it does not cover,
+accordingly; an approximation to the relative error of the force that it states, on the rows of the table and on a map over its
+domain (equal spheres, 1 : 2, 1 : 10 and a plane; θ to 50°; V/R³ from 1e-6 to 0.1; gaps to 0.9 of the rupture gap), whose truth is the
+exact law: *rows of map*, and what the table alone shows is *max rel err of table*. A table of bridges is held to its error in the
+largest force that it holds; a resistance to the error of each mode, the leading order's in the unit in which it fades as the gap
+closes (*err per unit*). *outside* are rows that a law says it does not cover,
 *rows above condition of force* those where a result other than the force is off by more than rounding does to the force.
 
 Where a table prints fewer digits than a double holds, they limit what can be seen: *table digits* is half a unit of the last

@@ -34,6 +34,9 @@ struct lambert {
   double contact_angle = 0;
   Rupture rupture = {};
 
+  /// Relative error of the force, v from 1e-6 on, θ ≤ 50°, gaps up to 0.9 of the rupture gap; worst measured 0.75.
+  static constexpr double stated_accuracy = 0.9;
+
   template <real T>
   [[nodiscard]] outcome<bridge_pull<T>, bridge_status> bridge(const edge<T>& e, given_volume<T> liquid) const noexcept {
     const T radius = detail::derjaguin_radius(e);

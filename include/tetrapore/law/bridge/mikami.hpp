@@ -16,6 +16,9 @@ struct mikami {
   required<double> surface_tension;
   Rupture rupture = {};
 
+  /// Relative error of the force over the domain, gaps up to 0.9 of the rupture gap; worst measured 0.42.
+  static constexpr double stated_accuracy = 0.5;
+
   template <real T>
   [[nodiscard]] outcome<bridge_pull<T>, bridge_status> bridge(const edge<T>& e, given_volume<T> liquid) const noexcept {
     const auto answer = soulie<Rupture>{surface_tension, 0.0, rupture}.bridge(e, liquid);

@@ -19,6 +19,9 @@ struct rabinovich {
   double contact_angle = 0;
   Rupture rupture = {};
 
+  /// Relative error of the force, v from 1e-6 on, θ ≤ 50°, gaps up to 0.9 of the rupture gap; worst measured 2.03.
+  static constexpr double stated_accuracy = 2.3;
+
   template <real T>
   [[nodiscard]] outcome<bridge_pull<T>, bridge_status> bridge(const edge<T>& e, given_volume<T> liquid) const noexcept {
     using std::sin;

@@ -20,6 +20,9 @@ struct weigert_ripperger {
   double contact_angle = 0;
   Rupture rupture = {};
 
+  /// Relative error of the force over the domain, gaps up to 0.9 of the rupture gap; worst measured 2.00.
+  static constexpr double stated_accuracy = 2.3;
+
   template <real T>
   [[nodiscard]] outcome<bridge_pull<T>, bridge_status> bridge(const edge<T>& e, given_volume<T> liquid) const noexcept {
     using std::sqrt;

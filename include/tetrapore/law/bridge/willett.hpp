@@ -18,6 +18,10 @@ struct willett {
   double contact_angle = 0;
   Rupture rupture = {};
 
+  /// Relative error of the force over the domain, radii up to 1 : 10, gaps up to 0.9 of the rupture gap; worst measured
+  /// 0.12.
+  static constexpr double stated_accuracy = 0.15;
+
   template <real T>
   [[nodiscard]] outcome<bridge_pull<T>, bridge_status> bridge(const edge<T>& e, given_volume<T> liquid) const noexcept {
     using std::exp;
@@ -68,6 +72,10 @@ struct willett_small {
   required<double> surface_tension;
   double contact_angle = 0;
   Rupture rupture = {};
+
+  /// Relative error of the force over the domain, v from 1e-6 on, radii up to 1 : 10, gaps up to 0.9 of the rupture
+  /// gap; worst measured 0.70.
+  static constexpr double stated_accuracy = 0.8;
 
   template <real T>
   [[nodiscard]] outcome<bridge_pull<T>, bridge_status> bridge(const edge<T>& e, given_volume<T> liquid) const noexcept {

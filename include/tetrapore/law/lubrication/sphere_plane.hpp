@@ -19,6 +19,10 @@ namespace tetrapore::inline TETRAPORE_ABI {
 struct sphere_plane {
   required<double> viscosity;
 
+  /// Relative error of shear, coupling (of √(shear × roll)), roll and twist over the whole domain; of the squeeze.
+  static constexpr double stated_accuracy = 1.5e-3;
+  static constexpr double stated_squeeze_accuracy = 3e-6;
+
   template <real T>
   [[nodiscard]] outcome<pair_resistance<T>, pair_status> resistance(const edge<T>& e) const noexcept {
     using std::log;

@@ -21,6 +21,10 @@ namespace tetrapore::inline TETRAPORE_ABI {
 struct two_spheres {
   required<double> viscosity;
 
+  /// Relative error of shear, coupling (of √(shear × roll)), roll and twist over the whole domain; of the squeeze.
+  static constexpr double stated_accuracy = 1e-3;
+  static constexpr double stated_squeeze_accuracy = 1e-5;
+
   template <real T>
   [[nodiscard]] outcome<pair_resistance<T>, pair_status> resistance(const edge<T>& e) const noexcept {
     using std::log;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Asperities are added to a lubrication law; a film in series with a spring is none.
-// expect: film_scheme.*constraints not satisfied|.l\.resistance\(e\). would be invalid: no matching
+// expect: required expression .*resistance\(e\). is invalid|resistance\(e\). would be invalid: no matching
 #include "tetrapore/law/lubrication/film.hpp"
 #include "tetrapore/law/lubrication/rough.hpp"
 #include "tetrapore/law/lubrication/two_spheres.hpp"
