@@ -8,8 +8,8 @@
 //            stated_accuracy · condition beyond the printed digits of the table; stderr names these rows. The condition
 //            is that of support/condition.hpp for openings and of truth_check/bridge.cpp for bridges. Approximations
 //            are held to the relative error of the force, on the table's rows and on a map of errors over their domain,
-//            whose points are rows too; fits of the rupture gap likewise; a table of bridges to its error in its largest
-//            force; a resistance to the relative error of each mode, in the unit that its law names
+//            whose points are rows too; fits of the rupture gap likewise; a table of bridges to its error in its
+//            largest force; a resistance to the relative error of each mode, in the unit that its law names
 //   max_rel_err, p99_rel_err     relative error of the main results, as it stands
 //   max_rel_err_per_condition    what stated_accuracy promises: the error beyond the table's digits over the condition
 //   table_digits                 relative half unit of the table's last digit, the worst of the rows; only where the

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Bridges against exact ones. A stable row must be answered by itself: force, areas, and the one of volume and suction
-// that was not given, to stated_accuracy × max(1, 16 κ / 1e-12), κ = 2⁻⁵³ Σ |x ∂y/∂x| / |y| over the gap and what was
-// given: what the rounding of the request alone does to that result. κ of the first two is the row's own; the table has no slopes
-// of areas, so theirs come from the law in long double. An unstable row is a trap: its request must get the stable
-// bridge of the same request if there is one, else a status, and never the row's own numbers.
+// Bridges against exact ones. A stable row must be answered by itself: force, areas, and the one of volume and
+// suction that was not given, to stated_accuracy × max(1, 16 κ / 1e-12), κ = 2⁻⁵³ Σ |x ∂y/∂x| / |y| over the gap and
+// what was given: what the rounding of the request alone does to that result. κ of the first two is the row's own;
+// the table has no slopes of areas, so theirs come from the law in long double. An unstable row is a trap: its
+// request must get the stable bridge of the same request if there is one, else a status, and never the row's own
+// numbers.
 #include "tetrapore/law/bridge.hpp"
 #include "tetrapore/law/bridge/closed_forms.hpp"
 #include "tetrapore/law/bridge/table.hpp"
