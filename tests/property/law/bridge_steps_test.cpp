@@ -8,9 +8,9 @@
 using namespace bridges;
 
 // The short form of tests/long/law/bridge_steps_test.cpp.
-TEST_CASE("12,000 time steps: never a wrong branch, work balances energy, what ruptures dissipate is booked") {
+TEST_CASE("8,000 time steps: never a wrong branch, work balances energy, what ruptures dissipate is booked") {
   tally t;
-  for (std::uint64_t seed = 100001; seed <= 100060; ++seed) {
+  for (std::uint64_t seed = 100001; seed <= 100040; ++seed) {
     life(seed, t).run(200);
   }
   MESSAGE(t.present << " steps with a bridge, " << t.made << " made, " << t.folded + t.lopsided
@@ -22,7 +22,7 @@ TEST_CASE("12,000 time steps: never a wrong branch, work balances energy, what r
 TEST_CASE("the gap of rupture and how it ends are those that the bridges beside it show, near and far") {
   random_pairs random(21);
   int ends[2] = {0, 0};
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < 1200; ++i) {
     const bool equal = i % 2 == 1;
     const double r2 = equal                        ? 1.0
                       : random.uniform(0, 1) < 0.2 ? infinity<double>
@@ -36,7 +36,7 @@ TEST_CASE("the gap of rupture and how it ends are those that the bridges beside 
     const double small = std::min(1.0, r2);
     const given_volume<double> v{std::pow(10.0, random.uniform(-6, 0)) * small * small * small};
     const auto law = law_of(theta1, theta2);
-    edge<double> e{1.0, i % 4 == 2 && i % 8 == 2 ? 1.0 : r2, 0.0, {0, 0, 1}};
+    edge<double> e{1.0, i % 8 == 2 ? 1.0 : r2, 0.0, {0, 0, 1}};
     const auto limit = law.rupture_gap(e, v);
     CAPTURE(i);
     REQUIRE(limit.ok());
@@ -52,8 +52,8 @@ TEST_CASE("the gap of rupture and how it ends are those that the bridges beside 
       CHECK(at(share) == (fold ? bridge_status::ruptured : bridge_status::lopsided));
     }
   }
-  CHECK(ends[0] > 500);
-  CHECK(ends[1] > 300);
+  CHECK(ends[0] > 400);
+  CHECK(ends[1] > 200);
 }
 
 TEST_CASE("equal spheres at 30 degrees turn lopsided just before their fold, where V/R³ is 0.012 to 0.022") {
@@ -135,7 +135,7 @@ TEST_CASE("every loop has its cap, and hard requests come back: an answer or a s
     }
   }
   random_pairs random(22);
-  for (int i = 0; i < 500; ++i) {
+  for (int i = 0; i < 200; ++i) {
     auto c = random.next();
     c.e.gap *= i % 2 == 0 ? 1.0 : -1.0;
     ask(law_of(c.theta1, c.theta2), c.e, std::pow(10.0, random.uniform(-12, 12)));
