@@ -145,11 +145,11 @@ template <class Meniscus>
   }
 }
 
-/// Asks a law for a bridge.
+/// Asks a law for a bridge; grains that overlap pull as grains that touch.
 template <class Law, class Given>
 [[nodiscard]] bridge_answer bridge_of(const Law& law, const tp::edge<double>& e, const Given& given) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  const auto found = law.bridge(e, given);
+  const auto found = tp::held_at_contact<Law>{law}.bridge(e, given);
   const auto& m = found.value;
   bridge_answer a{found.reason, m.force, found.ok() ? given.value : 0.0, unknown, unknown, unknown};
   if constexpr (requires { m.filling1; }) {

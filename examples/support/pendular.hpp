@@ -56,6 +56,10 @@ struct pendular_scene {
 
   [[nodiscard]] double box_volume() const { return region.bounds.volume(); }
   [[nodiscard]] double saturation(const pendular_state& s) const { return s.liquid_volume / void_volume; }
+  [[nodiscard]] std::size_t pairs_in_overlap() const {
+    return static_cast<std::size_t>(std::count_if(
+        pairs.begin(), pairs.end(), [](const tp::close_edge& e) { return e.shape.gap < -1e-12 * e.shape.radius1; }));
+  }
 };
 
 /// Void of the box: less the balls inside its walls, overlaps of two counted once. Exact unless three grains overlap in
@@ -84,22 +88,31 @@ auto with_given(control held, double value, const F& f) {
 
 namespace detail {
 
-/// A gap that no bridge of this law spans, whatever the radii of the packing: a tenth wider than the widest that one
-/// does, among pairs of the smallest and the largest grain and a wall.
+/// A gap that no bridge of this law spans, whatever the radii of the packing: a fifth wider than the widest that one
+/// does, among pairs of radii from the smallest to the largest, each a quarter above the one before, and a wall.
 template <class Law, class Given>
 [[nodiscard]] double reach_of(const Law& law, const tp::radius_range& radii, const Given& given) {
   constexpr double plane = std::numeric_limits<double>::infinity();
   constexpr double ratio = 1.1;
+  std::vector<double> rungs;
+  for (double r = radii.smallest; r < radii.largest; r *= 1.25) {
+    rungs.push_back(r);
+  }
+  rungs.push_back(radii.largest);
+  const std::size_t grains = rungs.size();
+  rungs.push_back(plane);
   double reach = 0;
-  for (const double r1 : {radii.smallest, radii.largest}) {
-    for (const double r2 : {radii.smallest, radii.largest, plane}) {
-      for (double gap = 1e-6 * radii.smallest; gap < 20 * radii.largest; gap *= ratio) {
-        const auto found = law.bridge(tp::edge<double>{r1, r2, gap, {1, 0, 0}}, given);
-        reach = found.ok() ? std::max(reach, gap * ratio) : reach;
+  for (std::size_t i = 0; i < grains; ++i) {
+    for (std::size_t j = i; j < rungs.size(); ++j) {
+      // only gaps wider than what is known already
+      for (double gap = std::max(1e-6 * radii.smallest, reach); gap < 20 * radii.largest; gap *= ratio) {
+        if (law.bridge(tp::edge<double>{rungs[i], rungs[j], gap, {1, 0, 0}}, given).ok()) {
+          reach = gap * ratio;
+        }
       }
     }
   }
-  return reach;
+  return reach * ratio;
 }
 
 /// Counts the bridges whose contact line meets that of another one on the same grain, or on the same wall.

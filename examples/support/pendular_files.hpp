@@ -250,6 +250,7 @@ inline void print_pendular(const pendular_scene& scene, const pendular_results& 
   say("porosity", scene.void_volume / scene.box_volume());
   say("reach", scene.reach);
   say("pairs", scene.pairs.size());
+  say("pairs_in_overlap", scene.pairs_in_overlap());
   say("tables", tables == nullptr ? std::size_t{0} : tables->size());
   say("pairs_without_table", tables == nullptr ? std::size_t{0} : scene.pairs.size() - tables->covered());
   say("table_error", tables == nullptr ? nan : tables->error());

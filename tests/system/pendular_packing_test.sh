@@ -4,7 +4,7 @@
 # input, and checks the keys on stdout, the files, the messages and the exit codes.
 source "$(dirname "$(realpath "${BASH_SOURCE[0]}")")/common.sh"
 
-keys="grains porosity reach pairs tables pairs_without_table table_error steps bridges ruptured refused_flooded refused_not_covered refused_invalid_input \
+keys="grains porosity reach pairs pairs_in_overlap tables pairs_without_table table_error steps bridges ruptured refused_flooded refused_not_covered refused_invalid_input \
 refused_not_converged overlapping liquid_volume liquid_content saturation mean_force stress_xx stress_yy stress_zz \
 stress_yz stress_xz stress_xy mean_stress rumpf_strength wettest_saturation wettest_overlapping \
 pendular_limit_saturation pendular_limit_volume seconds_read seconds_pairs seconds_tables seconds_laws seconds_states seconds_write \
@@ -45,6 +45,17 @@ for shear in yz xz xy; do
 done
 same liquid_volume "$(times 81 "$volume")"
 stress=$(value stress_xx)
+
+# the same pressed together by a thousandth of the radius: pulls and stress as at contact, whatever the suction
+awk 'NR == 1 { print } NR > 1 { print $1, $2, $3, 0.5005 }' cubic.txt >pressed.txt
+runs "pressed lattice" pressed.txt --periodic xyz --suction 1000
+[ "$(value pairs_in_overlap)" = 81 ] || fail "$title: pairs_in_overlap=$(value pairs_in_overlap)"
+expect saturation "> 0"
+pressed=$(value mean_force)
+runs "touching lattice, the same suction" cubic.txt --periodic xyz --suction 1000
+[ "$(value pairs_in_overlap)" = 0 ] || fail "$title: pairs_in_overlap=$(value pairs_in_overlap)"
+holds "$pressed" "> 0.998 * $(value mean_force)" && holds "$pressed" "< 1.003 * $(value mean_force)" ||
+  fail "$title: mean_force=$(value mean_force), pressed together $pressed"
 
 runs "the volume of these bridges" cubic.txt --periodic xyz --volume "$volume"
 same mean_force "$force"

@@ -249,4 +249,25 @@ TEST_CASE("bridges form at contact or at a given gap and last until they rupture
   CHECK(share_liquid(1.0, empty, empty, 2));
   CHECK(empty[0] + empty[1] == 1.0);
   CHECK_FALSE(share_liquid(1.0, empty, empty, 0));
+  // what cannot be shared is refused, and nothing changes
+  const double nan = quiet_nan<double>;
+  double kept[2] = {1, 2};
+  const double fair[2] = {1, 1};
+  for (const double bad : {-1.0, nan, infinity<double>}) {
+    const double skewed[2] = {bad, 2};
+    CHECK_FALSE(share_liquid(1.0, kept, skewed, 2));
+    CHECK_FALSE(share_liquid(bad, kept, fair, 2));
+  }
+  CHECK(kept[0] == 1);
+  CHECK(kept[1] == 2);
+  const young_laplace<> water{.surface_tension = 1.0};
+  bridge_presence<double> nowhere{.creation_gap = nan};
+  CHECK(nowhere.bridge(water, edge<double>{1, 1, 0.1, {1, 0, 0}}, given_volume<double>{1e-3}).reason ==
+        bridge_status::invalid_input);
+  CHECK_FALSE(nowhere.present);
+  bridge_presence<double> apart{.creation_gap = 0.01};
+  CHECK(apart.bridge(water, edge<double>{-1, 1, 0.1, {1, 0, 0}}, given_volume<double>{1e-3}).reason ==
+        bridge_status::invalid_input);
+  CHECK(apart.bridge(water, edge<double>{1, 1, nan, {1, 0, 0}}, given_volume<double>{1e-3}).reason ==
+        bridge_status::invalid_input);
 }

@@ -56,6 +56,9 @@ TEST_CASE("bad radii, gaps, normals and viscosities are refused, with NaN in eve
       CHECK(reason(law, {1, other, bad, up}) == pair_status::invalid_input);
       CHECK(reason(law, {1, other, 0.01, {0, bad, 1}}) == pair_status::invalid_input);
     }
+    for (const double length : {0.0, 0.99, 2.0}) {  // a normal has the length 1
+      CHECK(reason(law, {1, other, 0.01, up * length}) == pair_status::invalid_input);
+    }
     CHECK(reason(law, {1, other, 0, up}) == pair_status::touching);
     CHECK(reason(law, {1, other, -0.1, up}) == pair_status::touching);
     CHECK(reason(law, {1, other, 0.01, up}) == pair_status::ok);

@@ -101,8 +101,8 @@ template <real T>
 
 }  // namespace detail
 
-/// A closed form carried into an overlap: grains that overlap pull as grains that touch. What most DEM codes do; the
-/// closed forms alone refuse an overlap.
+/// A law carried into an overlap: grains that overlap pull as grains that touch. What most DEM codes do. The closed
+/// forms alone refuse an overlap; the exact law takes the two spheres as they cut each other.
 /// \par Accuracy  the exact force of an overlap δ is 1 + 1.1 (δ/R) / √v times that at contact, v = V/R³, while δ/R is
 ///                small beside √v: 3.5 % for δ/R = 1e-3 and v = 1e-3
 /// \par Source  a convention, without a source of its own
@@ -110,13 +110,13 @@ template <class Law>
 struct held_at_contact {
   Law law;
 
-  template <real T>
-    requires bridge_law<Law, T>
-  [[nodiscard]] auto bridge(edge<T> e, given_volume<T> liquid) const noexcept {
+  template <real T, class Given>
+    requires bridge_law<Law, T, Given>
+  [[nodiscard]] auto bridge(edge<T> e, const Given& given) const noexcept {
     if (e.gap < T(0) && detail::admit_pair(e, 1.0, 0.0, 0.0) == bridge_status::ok) {
       e.gap = T(0);
     }
-    return law.bridge(e, liquid);
+    return law.bridge(e, given);
   }
 };
 

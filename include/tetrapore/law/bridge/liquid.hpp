@@ -25,10 +25,16 @@ struct bridge_presence {
   template <class Law, class... Given>
   [[nodiscard]] auto bridge(const Law& law, const edge<T>& e, Given&&... given) noexcept {
     using answer_type = decltype(law.bridge(e, static_cast<Given&&>(given)...));
-    if (!present && e.gap > creation_gap) {
+    const bool in_reach = present || e.gap <= creation_gap;
+    if (!in_reach && e.radius1 > T(0) && e.radius2 > T(0) && e.gap > creation_gap) {
       return answer_type{{}, bridge_status::no_liquid};
     }
-    const answer_type answer = law.bridge(e, static_cast<Given&&>(given)...);
+    answer_type answer = law.bridge(e, static_cast<Given&&>(given)...);
+    if (!in_reach) {  // a pair, gap or distance that is no number: what the law says of it, or that
+      answer.reason = answer.kind() == verdict::refused ? answer.reason : bridge_status::invalid_input;
+      answer.value.force = T(quiet_nan<T>);
+      return answer;
+    }
     if (answer.kind() == verdict::ok || answer.kind() == verdict::absent) {
       present = answer.ok();
     }
@@ -39,14 +45,19 @@ struct bridge_presence {
 /// Adds liquid to bridges in proportion to a weight (their volume, the wetted area of the grain beside them …), equally
 /// where all weights are 0. What is added sums up to `liquid` but for the rounding of the volumes themselves.
 /// \par Units   [m³]
-/// \par Domain  liquid and weights not negative; there is a bridge to take it, else false: the caller keeps the liquid
+/// \par Domain  finite liquid and weights, none negative, and a bridge to take it; else false, nothing is changed and
+///              the caller keeps the liquid
 template <real T>
 [[nodiscard]] constexpr bool share_liquid(const T& liquid, T* volumes, const T* weights, std::size_t count) noexcept {
-  if (count == 0) {
+  const T limit(infinity<T>);
+  if (count == 0 || !(liquid >= T(0)) || !(liquid < limit)) {
     return false;
   }
   T total(0);
   for (std::size_t i = 0; i < count; ++i) {
+    if (!(weights[i] >= T(0)) || !(weights[i] < limit)) {
+      return false;
+    }
     total = total + weights[i];
   }
   // each takes its share of what is left, so that the last takes all the rest

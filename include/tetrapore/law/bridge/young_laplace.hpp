@@ -16,7 +16,9 @@ namespace tetrapore::inline TETRAPORE_ABI {
 /// Beyond the fold: `ruptured`. An equal pair (radii and angles) whose liquid slides to one side before: `lopsided`, at
 /// any gap from there on. Too little suction, or a pair pressed together with too much liquid: `flooded`. How the gap
 /// or the value came to be does not matter; a warm state changes the time, never the bridge. Where the surfaces
-/// overlap, the volume is that of the profile less both caps: their common lens counts twice.
+/// overlap, the volume is that of the profile less both caps, so that their common lens counts twice, and the force is
+/// that of the whole neck, so that the suction counts on the solid disc too: for grains that are pressed together take
+/// held_at_contact (closed_form.hpp).
 /// \par Units   surface tension [N/m], angles [rad], else SI
 /// \par Domain  0 ≤ θ < 90° on either surface (angle k on the surface of radius k); gap > −R; any volume or suction.
 ///              float, double, long double; float computes in double

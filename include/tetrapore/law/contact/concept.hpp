@@ -91,7 +91,7 @@ template <real T>
   }
   return friction >= 0 && friction < infinity<double> && e.radius1 > T(0) && e.radius1 < limit && e.radius2 > T(0) &&
                  e.gap > -e.radius1 && e.gap > -e.radius2 && e.gap < limit && time > T(0) && time < limit &&
-                 norm2(e.normal) < limit
+                 unit(e.normal)
              ? contact_status::ok
              : contact_status::invalid_input;
 }

@@ -76,12 +76,20 @@ template <real T>
   return {{none, none, none, none, none, none, none, {none, none, none}}, why};
 }
 
+/// Whether a normal has the length 1, to what a float keeps of it.
+template <real T>
+[[nodiscard]] constexpr bool unit(const vec3<T>& normal) noexcept {
+  const T off = dot(normal, normal) - T(1);
+  const T slack(static_cast<underlying_t<T>>(1e-5));
+  return off < slack && -slack < off;
+}
+
 /// Whether a law may look at the pair: a viscosity, two radii, a gap and a normal. A plane has an infinite radius2.
 template <real T>
 [[nodiscard]] constexpr pair_status admit_pair(const edge<T>& e, double viscosity) noexcept {
   const T limit(infinity<T>);
   if (!(viscosity > 0 && viscosity < infinity<double>) || !(e.radius1 > T(0)) || !(e.radius1 < limit) ||
-      !(e.radius2 > T(0)) || !(e.gap < limit) || !(-limit < e.gap) || !(dot(e.normal, e.normal) < limit)) {
+      !(e.radius2 > T(0)) || !(e.gap < limit) || !(-limit < e.gap) || !unit(e.normal)) {
     return pair_status::invalid_input;
   }
   return e.gap > T(0) ? pair_status::ok : pair_status::touching;
