@@ -6,6 +6,7 @@
 #include "tetrapore/core/error.hpp"
 #include "tetrapore/packing/random.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -84,12 +85,18 @@ struct cloud_run {
   return cloud;
 }
 
+/// Time steps of a cloud whose smallest grains have this radius.
+[[nodiscard]] inline double cloud_steps(const wet_material& m, const cloud_options& c, double radius) {
+  return std::ceil(c.time * c.steps / m.contact_time(0.5 * m.mass(radius)));
+}
+
 /// Follows a cloud, with some two hundred rows of books.
 [[nodiscard]] inline cloud_run follow(wet_grains& cloud, const wet_material& m, const cloud_options& c) {
   cloud_run run;
   run.grains = cloud.grains.size();
-  const double lightest = *std::min_element(cloud.masses.begin(), cloud.masses.end());
-  const auto steps = static_cast<std::size_t>(std::ceil(c.time * c.steps / m.contact_time(0.5 * lightest)));
+  const auto smallest = std::min_element(cloud.grains.begin(), cloud.grains.end(),
+                                         [](const auto& a, const auto& b) { return a.radius < b.radius; });
+  const auto steps = static_cast<std::size_t>(cloud_steps(m, c, smallest->radius));
   run.step = c.time / static_cast<double>(steps);
   run.liquid = cloud.liquid();
   const energies start = cloud.energy();

@@ -3,6 +3,7 @@
 
 #include "wet_grains.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -18,7 +19,7 @@ struct encounter {
   double radius2 = 1e-3;
   double speed = 0.2;     ///< of approach, along the line of approach [m/s]
   double obliquity = 0;   ///< of that line to the line of centres where they meet [rad]
-  double steps = 1000;    ///< in half a period of a contact
+  double steps = 500;     ///< in half a period of a contact
   double liquid = 5e-12;  ///< on each grain [m³]
 };
 
@@ -46,7 +47,7 @@ struct collision {
   double momentum_defect = 0;          ///< change of the whole momentum, over the momentum of one grain
   double angular_momentum_defect = 0;  ///< of the whole angular momentum, over momentum × sum of radii
   double liquid_defect = 0;            ///< of all liquid, over what there was
-  std::vector<instant> trace;
+  std::vector<instant> trace;          ///< at most 4000 rows
 };
 
 [[nodiscard]] inline double reduced(double a, double b) { return a * b / (a + b); }
@@ -66,10 +67,15 @@ struct collision {
   return m.viscosity * stokes_number(m, e) / stokes;
 }
 
+/// The gap at which two grains begin to act on each other.
+[[nodiscard]] inline double reach_of(const wet_material& m) {
+  return std::max(m.viscosity > 0 ? m.film : 0, m.bridge_volume > 0 ? m.creation_gap : 0);
+}
+
 /// Lets two grains meet. The grains start where their films do, in the frame of their common centre of mass.
 [[nodiscard]] inline collision collide(const wet_material& m, const encounter& e, bool with_trace = false) {
   const double far = m.viscosity > 0 ? m.film : 0;
-  const double start = std::max({far, m.bridge_volume > 0 ? m.creation_gap : 0, 0.0});
+  const double start = reach_of(m);
   const double mass = reduced_mass(m, e);
   const double dt = m.contact_time(mass) / e.steps;
   const vec normal{0, 0, 1};
@@ -93,17 +99,26 @@ struct collision {
   double time = 0;
   double barrier = tp::quiet_nan<double>;  // energy of the bridge where it lets go
   bool rebounds = false;
+  std::size_t stride = 1;
   while (time < patience) {
     pair.step(dt);
     time += dt;
     const wet_grains::pair_memory& now = pair.pairs().front();
     const double opening = rate();
     const energies energy = pair.energy();
-    if (with_trace) {
+    if (with_trace && pair.books().steps % stride == 0) {
       const double none = tp::quiet_nan<double>;
       result.trace.push_back({time, now.shape.gap, now.near && far > 0 ? now.wet.thickness : none,
                               now.pull + (now.presence.present ? now.last.force : 0), opening, energy,
                               pair.books().dissipated()});
+      if (result.trace.size() == 4000) {  // every second row goes, and from here on every second one is taken
+        std::size_t kept = 0;
+        for (std::size_t k = 1; k < result.trace.size(); k += 2) {
+          result.trace[kept++] = result.trace[k];
+        }
+        result.trace.resize(kept);
+        stride *= 2;
+      }
     }
     const bool bound = now.presence.present;
     rebounds = rebounds || opening > 0;

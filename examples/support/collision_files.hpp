@@ -18,13 +18,9 @@ namespace support {
 inline void write_trace(const std::filesystem::path& folder, const collision& c) {
   tp::io::csv_writer table(folder / "collision.csv", {"time [s]", "gap [m]", "film [m]", "pull [N]", "rate [m/s]",
                                                       "kinetic [J]", "elastic [J]", "capillary [J]", "dissipated [J]"});
-  const std::size_t every = std::max<std::size_t>(1, c.trace.size() / 2000);
-  for (std::size_t k = 0; k < c.trace.size(); ++k) {
-    if (k % every == 0 || k + 1 == c.trace.size()) {
-      const instant& i = c.trace[k];
-      table.row(i.time, i.gap, i.film, i.force, i.rate, i.energy.kinetic, i.energy.elastic, i.energy.capillary,
-                i.dissipated);
-    }
+  for (const instant& i : c.trace) {
+    table.row(i.time, i.gap, i.film, i.force, i.rate, i.energy.kinetic, i.energy.elastic, i.energy.capillary,
+              i.dissipated);
   }
   table.commit();
 }

@@ -5,6 +5,8 @@
 #include "collision.hpp"
 #include "number_options.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
@@ -63,7 +65,7 @@ inline constexpr number_range loose{"a number above 0, at most 0.2", [](double x
   numbers.add("--volume", m.bridge_volume, zero_or_more, "of a new bridge [m3]; 0: none");
   numbers.add("--creation-gap", creation, zero_or_more, "gap at which a bridge forms [m]; 0: at contact");
   numbers.add("--stiffness", m.stiffness, above_zero, "of a contact [N/m]; 0.8 of it in shear");
-  numbers.add("--asperity-stiffness", m.asperity_stiffness, zero_or_more, "[N/m]");
+  numbers.add("--asperity-stiffness", m.asperity_stiffness, above_zero, "[N/m]");
   numbers.add("--friction", m.friction, zero_or_more, "coefficient of Coulomb");
   numbers.add("--steps-per-contact", job.pair.steps, many_steps,
               "time steps in half a period of a contact, two grains");
@@ -111,6 +113,21 @@ inline constexpr number_range loose{"a number above 0, at most 0.2", [](double x
   }
   const double overlap = job.pair.speed * m.contact_time(0.5 * m.mass(large)) / tp::pi<double>;  // of two dry grains
   below("--velocity", job.pair.speed, 0.2 * small / overlap * job.pair.speed, "or the contacts are too soft for it");
+  const double dt = m.contact_time(reduced_mass(m, job.pair)) / job.pair.steps;
+  if (!(reach_of(m) / (job.pair.speed * std::cos(job.pair.obliquity) * dt) < 1e6)) {
+    refuse("--velocity", tp::short_number(job.pair.speed), "a faster approach, or fewer --steps-per-contact");
+  }
+  if (!(cloud_steps(m, job.cloud, small) < 1e7)) {
+    refuse("--time", tp::short_number(job.cloud.time), "at most 1e7 steps of the cloud");
+  }
+  // The film's resistance to rolling is the one force that a step takes from its beginning.
+  const double longest = std::max(dt, job.cloud.grains > 0 ? job.cloud.time / cloud_steps(m, job.cloud, small) : 0);
+  const double inertia = 0.4 * m.mass(small) * small * small;
+  if (m.viscosity > 0 &&
+      !(2 * film_of(m).resistance(tp::edge<double>{small, large, m.roughness, {0, 0, 1}}).value.roll * longest <
+        inertia)) {
+    refuse("--viscosity", tp::short_number(m.viscosity), "a thinner liquid, or more steps per contact");
+  }
   return job;
 }
 

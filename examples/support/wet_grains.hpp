@@ -63,6 +63,15 @@ struct wet_material {
   [[nodiscard]] double contact_time(double mass) const { return tp::pi<double> * std::sqrt(mass / stiffness); }
 };
 
+/// The film between grains of a material.
+[[nodiscard]] inline tp::rough<film_law> film_of(const wet_material& m) {
+  return {.law = {.accurate = m.accurate_film,
+                  .leading = {.viscosity = m.viscosity},
+                  .spheres = {.viscosity = m.viscosity},
+                  .wall = {.viscosity = m.viscosity}},
+          .height = m.roughness};
+}
+
 /// \par Units  [J]
 struct energies {
   double kinetic = 0;
@@ -95,9 +104,9 @@ struct ledger {
 
 /// Grains with contact, film and bridges, in a box with walls or in none.
 ///
-/// A step is one of leapfrog: half a kick, a drift, the forces where the grains now are, half a kick. The drift moves by
-/// the mean velocity of the step, which is what the contact laws ask for, and the mean of the forces at the two ends,
-/// times the drift, is the work that the kinetic energy feels.
+/// A step is one of leapfrog: half a kick, a drift, the forces where the grains now are, half a kick. The drift moves
+/// by the mean velocity of the step, which is what the contact laws ask for, and the mean of the forces at the two
+/// ends, times the drift, is the work that the kinetic energy feels.
 class wet_grains {
  public:
   using wet_law = tp::wet_contact<tp::rough<film_law>>;
@@ -442,11 +451,7 @@ class wet_grains {
   vec gravity_;
   std::vector<vec> forces_;
   std::vector<vec> torques_;
-  wet_law wet_{.film = {.law = {.accurate = material_.accurate_film,
-                                .leading = {.viscosity = material_.viscosity},
-                                .spheres = {.viscosity = material_.viscosity},
-                                .wall = {.viscosity = material_.viscosity}},
-                        .height = material_.roughness},
+  wet_law wet_{.film = film_of(material_),
                .normal_stiffness = material_.stiffness,
                .shear_stiffness = material_.shear_stiffness,
                .friction = material_.friction,

@@ -150,6 +150,10 @@ refuses "deep film" "--film: found \"0.01\", expected below 0.001, the smaller r
 refuses "far" "--creation-gap: found \"0.5\", expected below" --creation-gap 0.5
 refuses "no stiffness" "--stiffness: found \"0\"" --stiffness 0
 refuses "too soft" "--velocity: found \"0.2\", expected below .*too soft" --stiffness 1
+refuses "tar" "--viscosity: found \"1e\+?06\", expected a thinner liquid" --viscosity 1e6
+refuses "no asperities" "--asperity-stiffness: found \"0\", expected a number above 0" --asperity-stiffness 0
+refuses "too slow" "--velocity: found \"1e-06\", expected a faster approach" --velocity 1e-6
+refuses "too long" "--time: found \"1000\", expected at most 1e7 steps" --time 1000
 refuses "negative friction" "--friction: found \"-0.1\"" --friction=-0.1
 refuses "long steps" "--steps-per-contact: found \"5\", expected a whole number from 20" --steps-per-contact 5
 refuses "half a step" "--cloud-steps: found \"50.5\"" --cloud-steps 50.5
