@@ -213,7 +213,7 @@ struct young_laplace {
   template <class T, bool Warm>
   [[nodiscard]] outcome<meniscus<T>, bridge_status> solve(const edge<T>& e, const T& value, bridge_control by,
                                                           warm_state<T>& w) const noexcept {
-    using W = work<T>;
+    using wide = work<T>;
     using std::isfinite;
     const bool known = Warm && w.last.knows(e, surface_tension.get(), contact_angle1, contact_angle2, by);
     if ((!known && !in_domain(e)) || !isfinite(value) || !isfinite(e.gap) ||
@@ -223,10 +223,11 @@ struct young_laplace {
     if (by == bridge_control::volume && value == T(0)) {
       return without<T>(bridge_status::no_liquid);
     }
-    const W asked = by == bridge_control::volume ? static_cast<W>(value) : half_mean_curvature(static_cast<W>(value));
-    const detail::demand<W> d{static_cast<W>(e.gap), asked, by};
+    const wide asked =
+        by == bridge_control::volume ? static_cast<wide>(value) : half_mean_curvature(static_cast<wide>(value));
+    const detail::demand<wide> d{static_cast<wide>(e.gap), asked, by};
     if (known) {
-      const detail::surface_pair<W>& pair = w.last.pair;
+      const detail::surface_pair<wide>& pair = w.last.pair;
       return pair.equal ? solve_pair<T, Warm, true>(e, pair, d, true, w)
                         : solve_pair<T, Warm, false>(e, pair, d, true, w);
     }
@@ -362,7 +363,7 @@ struct young_laplace {
   template <class T>
   [[nodiscard]] outcome<bridge_limit<T>, bridge_status> widest(const edge<T>& e, const T& value,
                                                                bridge_control by) const noexcept {
-    using W = work<T>;
+    using wide = work<T>;
     using std::isfinite;
     const T nan = quiet_nan<T>;
     edge<T> touching = e;
@@ -374,8 +375,9 @@ struct young_laplace {
       return {{T(0), bridge_end::fold, without<T>(bridge_status::no_liquid).value}, bridge_status::no_liquid};
     }
     const auto pair = pair_of(e);
-    const W asked = by == bridge_control::volume ? static_cast<W>(value) : half_mean_curvature(static_cast<W>(value));
-    const detail::demand<W> d{W(0), asked, by};
+    const wide asked =
+        by == bridge_control::volume ? static_cast<wide>(value) : half_mean_curvature(static_cast<wide>(value));
+    const detail::demand<wide> d{wide(0), asked, by};
     return pair.equal ? widest_of<T, true>(pair, d) : widest_of<T, false>(pair, d);
   }
 
@@ -480,7 +482,7 @@ struct young_laplace {
 template <int Nodes>
 template <std::floating_point T>
 bridge_stiffness<T> young_laplace<Nodes>::stiffness(const edge<T>& e, const meniscus<T>& m) const noexcept {
-  using W = work<T>;
+  using wide = work<T>;
   const T nan = quiet_nan<T>;
   const auto pair = pair_of(e);
   const auto at_k = found_at(pair, m, bridge_control::suction);
@@ -488,25 +490,25 @@ bridge_stiffness<T> young_laplace<Nodes>::stiffness(const edge<T>& e, const meni
   if (!at_k.converged || !at_volume.converged) {
     return {nan, nan, nan, nan, nan};
   }
-  W lambda_gap(0);
-  W lambda_gap_at_volume(0);
-  W volume_gap(0);
-  W volume_k(0);
+  wide lambda_gap(0);
+  wide lambda_gap_at_volume(0);
+  wide volume_gap(0);
+  wide volume_k(0);
   for (int i = 0; i < (pair.equal ? 3 : 4); ++i) {
     lambda_gap += at_k.at.lambda_by[i] * at_k.by_gap[i];
     lambda_gap_at_volume += at_k.at.lambda_by[i] * at_volume.by_gap[i];
     volume_gap += at_k.at.by[detail::volume_row][i] * at_k.by_gap[i];
     volume_k += at_k.at.by[detail::volume_row][i] * at_k.by_value[i];
   }
-  const W sigma = static_cast<W>(surface_tension.get());
-  const W scale = at_k.at.scale;
-  const W around = W(2) * pi<W> * sigma;
+  const wide sigma = static_cast<wide>(surface_tension.get());
+  const wide scale = at_k.at.scale;
+  const wide around = wide(2) * pi<wide> * sigma;
   bridge_stiffness<T> s;
   s.force_by_gap_at_volume = static_cast<T>(around * lambda_gap_at_volume);
   s.force_by_gap_at_suction = static_cast<T>(around * lambda_gap);
   s.volume_by_gap_at_suction = static_cast<T>(volume_gap * scale * scale);
-  s.suction_by_gap_at_volume = static_cast<T>(W(2) * sigma * at_volume.by_gap[0] / (scale * scale));
-  s.volume_by_suction = static_cast<T>(volume_k * scale * scale * scale * scale / (W(2) * sigma));
+  s.suction_by_gap_at_volume = static_cast<T>(wide(2) * sigma * at_volume.by_gap[0] / (scale * scale));
+  s.volume_by_suction = static_cast<T>(volume_k * scale * scale * scale * scale / (wide(2) * sigma));
   return s;
 }
 
@@ -523,13 +525,13 @@ bool young_laplace<Nodes>::stable(const edge<T>& e, const meniscus<T>& m, bridge
 template <int Nodes>
 template <std::floating_point T>
 bridge_areas<T> young_laplace<Nodes>::areas(const edge<T>& e, const meniscus<T>& m) const noexcept {
-  using W = work<T>;
+  using wide = work<T>;
   const auto pair = pair_of(e);
   const auto u = profile_in(m);
   bridge_areas<T> a;
   const auto wetted = [&](std::size_t i) {
-    const detail::contact_circle<W> at(pair.side[i], u.w[i]);
-    return static_cast<T>(pi<W> * u.w[i] * at.radius);  // 2πRh
+    const detail::contact_circle<wide> at(pair.side[i], u.w[i]);
+    return static_cast<T>(pi<wide> * u.w[i] * at.radius);  // 2πRh
   };
   a.wetted1 = wetted(0);
   a.wetted2 = pair.equal ? a.wetted1 : wetted(1);
@@ -540,24 +542,24 @@ bridge_areas<T> young_laplace<Nodes>::areas(const edge<T>& e, const meniscus<T>&
 template <int Nodes>
 template <std::floating_point T>
 std::array<T, 2> young_laplace<Nodes>::halves(const edge<T>& e, const meniscus<T>& m) const noexcept {
-  using W = work<T>;
+  using wide = work<T>;
   using std::sqrt;
   const auto pair = pair_of(e);
   const auto u = profile_in(m);
   const T half = T(0.5) * m.volume;
-  const detail::contact_circle<W> first(pair.side[0], u.w[0]);
-  const detail::contact_circle<W> second(pair.side[1], u.w[1]);
-  if (pair.equal || m.by_length || !(first.cosine > W(0)) || !(second.cosine > W(0))) {
+  const detail::contact_circle<wide> first(pair.side[0], u.w[0]);
+  const detail::contact_circle<wide> second(pair.side[1], u.w[1]);
+  if (pair.equal || m.by_length || !(first.cosine > wide(0)) || !(second.cosine > wide(0))) {
     return {half, half};
   }
-  detail::sample<W> s;
-  s.gap = s.volume = W(0);
+  detail::sample<wide> s;
+  s.gap = s.volume = wide(0);
   for (auto& row : s.by) {
-    row[0] = row[1] = W(0);
+    row[0] = row[1] = wide(0);
   }
-  const W a = u.k * u.extent;
-  const W p = W(1) + W(2) * a;
-  if (!detail::add_side<fine>(s, pair.side[0], a, p, W(1) / p, sqrt(p), W(1) / u.extent, u.w[0], 0)) {
+  const wide a = u.k * u.extent;
+  const wide p = wide(1) + wide(2) * a;
+  if (!detail::add_side<fine>(s, pair.side[0], a, p, wide(1) / p, sqrt(p), wide(1) / u.extent, u.w[0], 0)) {
     return {half, half};
   }
   const T one = static_cast<T>(s.volume * u.extent * u.extent * u.extent);
