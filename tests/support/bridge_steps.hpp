@@ -167,7 +167,7 @@ class life {
       }
     }
     const double all = stretched_ + std::abs(lost_) + std::abs(gained_);
-    if (all > 0) {
+    if (!(all <= 0)) {
       worst(t_.ledger_error, std::abs(work_ - (energy_ - first_) - lost_ - gained_) / all);
     }
     if (by_volume_) {
@@ -213,6 +213,11 @@ class life {
     return by_volume_ ? pair_.bridge(law_, at(gap), given_volume<double>{value}, w)
                       : pair_.bridge(law_, at(gap), given_suction<double>{value}, w);
   }
+  [[nodiscard]] answer law_at(double gap, double value, young_laplace<>::warm_state<double>& w) {
+    ++t_.evaluations;
+    return by_volume_ ? law_.bridge(at(gap), given_volume<double>{value}, w)
+                      : law_.bridge(at(gap), given_suction<double>{value}, w);
+  }
   [[nodiscard]] answer cold() const {
     return by_volume_ ? law_.bridge(e_, given_volume<double>{value_}) : law_.bridge(e_, given_suction<double>{value_});
   }
@@ -231,21 +236,21 @@ class life {
                       : 0.0;
   }
 
-  /// Work by a rule of 16 nodes from one gap and value to another, halved where it is not settled; to the rupture, F
+  /// Work by a rule of 8 nodes from one gap and value to another, halved where it is not settled; to the rupture, F
   /// goes with the root of the distance: there the nodes are those of its square.
   struct stretch {
     double gap0, gap1, value0, value1;
     bool to_rupture;
   };
   [[nodiscard]] double rule(const stretch& s, double from, double to, young_laplace<>::warm_state<double>& w) {
-    const auto& gauss = detail::gauss<double, 8>;
+    const auto& gauss = detail::gauss<double, 4>;
     double sum = 0;
-    for (std::size_t k = 0; k < 16; ++k) {
-      const std::size_t j = k < 8 ? 7 - k : k - 8;
-      const double t = from + (to - from) * 0.5 * (k < 8 ? 1 - gauss.node[j] : 1 + gauss.node[j]);
+    for (std::size_t k = 0; k < 8; ++k) {
+      const std::size_t j = k < 4 ? 3 - k : k - 4;
+      const double t = from + (to - from) * 0.5 * (k < 4 ? 1 - gauss.node[j] : 1 + gauss.node[j]);
       const double share = s.to_rupture ? t * (2 - t) : t;
       const double rate = s.to_rupture ? 2 * (1 - t) : 1;
-      const auto b = solve(s.gap0 + share * (s.gap1 - s.gap0), s.value0 + share * (s.value1 - s.value0), w);
+      const auto b = law_at(s.gap0 + share * (s.gap1 - s.gap0), s.value0 + share * (s.value1 - s.value0), w);
       if (!b.ok()) {
         return quiet_nan<double>;
       }
@@ -267,9 +272,12 @@ class life {
   [[nodiscard]] double work_of(const stretch& s) {
     auto along = warm_;
     const double whole = rule(s, 0, 1, along);
+    // towards the rupture no node comes nearer to it than 1e-12 of its gap
+    const double nearest = 0.0199 * std::sqrt(std::abs(s.gap1 - s.gap0) / limit_.gap * 1e12);
+    const int depth = s.to_rupture ? std::min(std::max(static_cast<int>(std::log2(nearest)) - 1, 0), 10) : 10;
     const bool tiny = std::abs(s.gap1 - s.gap0) < 1e-3 * limit_.gap &&
                       std::abs(s.value1 - s.value0) < 1e-3 * std::abs(s.value0) && !s.to_rupture;
-    const double w = tiny ? whole : work_of(s, 0, 1, whole, s.to_rupture ? 4 : 10, along);
+    const double w = tiny ? whole : work_of(s, 0, 1, whole, depth, along);
     work_ += w;
     stretched_ += std::abs(w);
     return w;
@@ -376,9 +384,7 @@ class life {
       if (!pair_.present) {
         if (gap > pair_.creation_gap) {
           e_.gap = gap;
-          ++t_.evaluations;  // what the law would say if there were one
-          compare(by_volume_ ? law_.bridge(e_, given_volume<double>{value_}, warm_)
-                             : law_.bridge(e_, given_suction<double>{value_}, warm_));
+          compare(law_at(gap, value_, warm_));  // what the law would say if there were one
           continue;
         }
         make();
@@ -406,7 +412,13 @@ class life {
   }
 
   void rupture(double gap) {
-    static_cast<void>(work_of({e_.gap, limit_.gap, value_, value_, true}));
+    if (const double rest = limit_.gap - e_.gap; rest > 1e-8 * limit_.gap) {
+      static_cast<void>(work_of({e_.gap, limit_.gap, value_, value_, true}));
+    } else {  // too near for nodes between: F goes with the root of the distance
+      const double force = law_at(e_.gap, value_, warm_).value.force;
+      work_ += rest * (2 * force + limit_.last.force) / 3;
+      stretched_ += std::abs(rest * force);
+    }
     const double before = energy_at(limit_.gap, limit_.last);
     const bool fold = limit_.end == bridge_end::fold;
     if (by_volume_) {
