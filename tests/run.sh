@@ -21,6 +21,7 @@ cmake --preset release
 cmake --build --preset release -j "$jobs"
 
 if [ "$long" = yes ]; then
+  cmake --build --preset release -j "$jobs" --target campaigns
   exec ctest --preset long ${2:+-R "$2"}
 fi
 
