@@ -35,6 +35,8 @@ class path {
   path(const surface_pair<T>& pair, const demand<T>& fixed, along what) noexcept
       : pair_(pair), fixed_(fixed), what_(what) {}
 
+  [[nodiscard]] const surface_pair<T>& pair() const noexcept { return pair_; }
+
   /// The waypoint at a solution; the curve leaves it as `reach` grows (`sense` 1) or falls (−1).
   template <int N>
   [[nodiscard]] waypoint<T> begin(const profile<T>& u, int sense) const noexcept {
@@ -194,10 +196,11 @@ struct journey {
   arrival how;
 };
 
-/// λ's rate by the filling angle at the first circle, of one sign as long as the circles hold.
+/// λ's rate by the filling angle at the circles of an equal pair, positive as long as they do not slide together. At
+/// θ = 0 it vanishes with δ + θ − 90°, and they slide from there on where the profile has passed a whole period.
 template <std::floating_point T>
 [[nodiscard]] inline T hold(const waypoint<T>& p) noexcept {
-  return p.at.turn[0] * p.at.cosine[0];
+  return (p.at.cosine[0] < T(0)) == (extrema(p.at) > 1) ? p.at.turn[0] : -p.at.turn[0];
 }
 
 /// Whether the curve turns so far between two waypoints that they may lie on two curves.
@@ -239,6 +242,12 @@ template <int N, bool Equal, std::floating_point T>
     (now > T(0) ? at_low : at_high) = now;
   }
   return true;
+}
+
+/// Whether the liquid closes over a sphere, but for a contact circle of 1e-6 of its radius.
+template <std::floating_point T>
+[[nodiscard]] inline bool closed(const surface_pair<T>& pair, const profile<T>& u) noexcept {
+  return pair.side[0].curvature * u.w[0] > T(4e6) || pair.side[1].curvature * u.w[1] > T(4e6);
 }
 
 /// Follows the curve from `start` until `reach` is the target or turns back. `sense` is that of the start.
@@ -299,6 +308,11 @@ template <int N, bool Equal, std::floating_point T>
       return trip;
     }
     if (!passed && !folded) {
+      if (closed(along_path.pair(), next.u)) {
+        trip.end = next;
+        trip.how = arrival::at_limit;
+        return trip;
+      }
       from = next;
       h = smaller(h * (iterations <= 2 ? T(1.6) : T(1)), T(0.8));
       continue;
@@ -405,6 +419,110 @@ template <int N, bool Equal, std::floating_point T>
   return trip;
 }
 
+/// The bridge of a volume that neither pulls nor pushes, with its gap: λ is 0 and the profile an arc about its centre.
+template <bool Equal, std::floating_point T>
+[[nodiscard]] inline profile<T> sphere_between(const surface_pair<T>& pair, const T& volume, T& gap) noexcept {
+  using std::acos;
+  using std::cbrt;
+  using std::sqrt;
+  profile<T> u;
+  u.by = chart::from_contact;
+  const auto holds = [&](const T& a) {
+    T span(0);
+    T held(0);
+    T turned(0);
+    gap = T(0);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const wetted_surface<T>& on = pair.side[i];
+      // a sin(δ + θ) = R sin δ
+      const T t = a * on.curvature * on.sine;
+      const T b = T(1) - a * on.curvature * on.cosine;
+      const T size = sqrt(t * t + b * b);
+      u.w[i] = b > T(0) ? T(2) * a * on.sine / (size + b) : T(2) * (size - b) / (on.curvature * t);
+      const contact_circle<T> at(on, u.w[i]);
+      span -= a * at.cosine;
+      held -= pi<T> * a * a * a * at.cosine * (T(1) - at.cosine * at.cosine / T(3)) + at.cap;
+      turned += acos(at.cosine);
+      gap -= at.height;
+    }
+    gap += span;
+    u.k = T(-1) / a;
+    u.extent = a * (turned - pi<T>)*(Equal ? T(0.5) : T(1));
+    return span > T(0) ? held : T(0);
+  };
+  T low = T(0.1) * cbrt(volume);
+  T high = low;
+  for (int i = 0; i < 100 && holds(high) < volume; ++i) {
+    high *= T(2);
+  }
+  for (int i = 0; i < 60; ++i) {
+    const T middle = T(0.5) * (low + high);
+    (holds(middle) < volume ? low : high) = middle;
+  }
+  static_cast<void>(holds(high));
+  return u;
+}
+
+/// Along the gap from where a bridge neither pulls nor pushes: for so much liquid that it would close over a sphere at
+/// contact. That start is one of a pair wetted less, if need be.
+template <int N, bool Equal, std::floating_point T>
+[[nodiscard]] inline journey<T> travel_from_sphere(const surface_pair<T>& pair, const demand<T>& d,
+                                                   const T& gap_limit) noexcept {
+  using std::atan2;
+  using std::cos;
+  using std::sin;
+  constexpr int stages = 8;
+  constexpr T least = T(0.2);
+  journey<T> trip;
+  trip.how = arrival::lost;
+  surface_pair<T> on = pair;
+  const auto wet = [&](const T& share) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      const T theta = atan2(pair.side[i].sine, pair.side[i].cosine);
+      if (theta < least) {
+        const T now = theta + (T(1) - share) * least;
+        on.side[i].cosine = cos(now);
+        on.side[i].sine = sin(now);
+      }
+    }
+  };
+  wet(T(0));
+  demand<T> at{T(0), d.value, d.by};
+  profile<T> u = sphere_between<Equal>(on, d.value, at.gap);
+  const auto solve = [&] {
+    const found<T> f = newton<N, Equal>(on, at, u, 12);
+    u = f.u;
+    return f.converged && index_of<Equal>(on, f, d.by).at_volume == 0;
+  };
+  if (!solve()) {
+    return trip;
+  }
+  if (on.side[0].sine > pair.side[0].sine || on.side[1].sine > pair.side[1].sine) {
+    const path<Equal, T> opening(on, at, along::gap);
+    const auto start = opening.template begin<N>(u, 1);
+    const auto end = follow<N>(opening, start, infinity<T>, 1);
+    if (end.how != arrival::at_fold && end.how != arrival::at_slide) {
+      return trip;
+    }
+    at.gap = T(0.5) * (at.gap + end.end.reach);
+    u = follow<N>(opening, start, at.gap, 1).end.u;
+    for (int i = 0; i <= stages; ++i) {
+      wet(T(i) / T(stages));
+      if (!solve()) {
+        return trip;
+      }
+    }
+    on = pair;
+  }
+  const path<Equal, T> opening(pair, at, along::gap);
+  const int sense = gap_limit < at.gap ? -1 : 1;
+  trip = follow<N>(opening, opening.template begin<N>(u, sense), gap_limit, sense);
+  if (sense < 0 && trip.how == arrival::at_fold) {
+    trip.how = arrival::at_limit;
+  }
+  return trip;
+}
+
 /// A bridge from nothing: at contact from little liquid (or a high suction) to the value asked, then along the gap.
 template <int N, bool Equal, std::floating_point T>
 [[nodiscard]] inline journey<T> travel(const surface_pair<T>& pair, const demand<T>& d, const T& gap_limit) noexcept {
@@ -462,6 +580,9 @@ template <int N, bool Equal, std::floating_point T>
     const int sense = by_volume ? 1 : -1;
     const auto filled = follow<N>(filling, filling.template begin<N>(u, sense), d.value, sense);
     if (filled.how != arrival::at_target) {
+      if (by_volume && gap_limit > T(0)) {
+        return travel_from_sphere<N, Equal>(pair, d, gap_limit);
+      }
       trip.how = filled.how == arrival::lost ? arrival::lost : arrival::at_limit;
       return trip;
     }

@@ -167,6 +167,44 @@ inline void stretched_sines(const T& m, const T& s, std::array<T, static_cast<st
   squared_sines(-m * m, shares, q);
 }
 
+/// Calls visit(fraction, weight) at the nodes of a rule along a profile, for 1 + 2kz = p exp(−ix) from x = `from` over
+/// `span`: Gauss's rule, unless its branch points 2πm ± i ln p at the necks slow it down. Then a rule for each piece
+/// between two bulges, x = 2πm + |ln p| sinh u, that is Gauss's in u.
+template <int N, std::floating_point T, class Visit>
+inline void visit_nodes(const T& p, const T& from, const T& span, const Visit& visit) noexcept {
+  using std::asinh;
+  using std::cosh;
+  using std::floor;
+  using std::log;
+  using std::sinh;
+  using std::sqrt;
+  constexpr T round = T(2) * pi<T>;
+  const auto& rule = gauss<T, N>;
+  const T end = from + span;
+  const T depth = larger(std::abs(log(p)), T(1e-9));
+  const auto distance = [&](const T& x) { return sqrt(x * x + depth * depth); };
+  T neck = round * floor(from / round);
+  T nearest = distance(from - neck) + distance(end - neck);
+  for (T next = neck + round; next < end + round; next += round) {
+    nearest = smaller(nearest, distance(from - next) + distance(end - next));
+  }
+  const bool plain = nearest > T(1.45) * span;
+  for (T a = from; a < end;) {
+    neck = round * floor(a / round + T(0.5));
+    const T b = plain ? end : smaller(end, neck + pi<T> > a ? neck + pi<T> : neck + round + pi<T>);
+    const T u = plain ? a : asinh((a - neck) / depth);
+    const T half = T(0.5) * ((plain ? b : asinh((b - neck) / depth)) - u);
+    for (std::size_t j = 0; j < static_cast<std::size_t>(N); ++j) {
+      for (int mirror = 0; mirror < 2; ++mirror) {
+        const T v = u + half * (mirror == 0 ? T(1) - rule.node[j] : T(1) + rule.node[j]);
+        const T x = plain ? v : neck + depth * sinh(v);
+        visit((x - from) / span, half * rule.weight[j] / span * (plain ? T(1) : depth * cosh(v)));
+      }
+    }
+    a = b;
+  }
+}
+
 /// How the unknowns are counted. Unknowns: k, then `extent`, then w of each contact circle.
 enum class chart : unsigned char {
   from_extremum,  ///< extent is the radius of the neck, real or virtual, from which both sides are measured
@@ -426,6 +464,7 @@ struct circle_point {
 
 template <int N, bool Equal, std::floating_point T>
 [[nodiscard]] inline sample<T> sample_from_contact(const surface_pair<T>& pair, const profile<T>& u) noexcept {
+  using std::atan2;
   using std::cos;
   using std::sin;
   using std::sqrt;
@@ -463,26 +502,22 @@ template <int N, bool Equal, std::floating_point T>
   T v(0);
   T x_by[3]{};
   T v_by[3]{};
-  const auto& rule = gauss<T, N>;
-  for (std::size_t j = 0; j < static_cast<std::size_t>(N); ++j) {
-    for (int mirror = 0; mirror < 2; ++mirror) {
-      const T fraction = T(0.5) * (mirror == 0 ? T(1) - rule.node[j] : T(1) + rule.node[j]);
-      const walk to = at(fraction);
-      const T square = to.z.re * to.z.re + to.z.im * to.z.im;
-      const T r = sqrt(square);
-      const T per_r = T(1) / r;
-      const T cosine = to.z.re * per_r;
-      const T weight = T(0.5) * rule.weight[j];
-      x += weight * cosine;
-      v += weight * r * to.z.re;
-      const complex_point<T> rates[3] = {to.z_k, to.z_l, to.z_w};
-      for (int i = 0; i < 3; ++i) {
-        const T r_i = (to.z.re * rates[i].re + to.z.im * rates[i].im) * per_r;
-        x_by[i] += weight * (rates[i].re - cosine * r_i) * per_r;
-        v_by[i] += weight * (r * rates[i].re + to.z.re * r_i);
-      }
+  s.modulus = sqrt(front.re * front.re + front.im * front.im);
+  visit_nodes<N>(s.modulus, -atan2(front.im, front.re), T(-2) * k * length, [&](const T& fraction, const T& weight) {
+    const walk to = at(fraction);
+    const T square = to.z.re * to.z.re + to.z.im * to.z.im;
+    const T r = sqrt(square);
+    const T per_r = T(1) / r;
+    const T cosine = to.z.re * per_r;
+    x += weight * cosine;
+    v += weight * r * to.z.re;
+    const complex_point<T> rates[3] = {to.z_k, to.z_l, to.z_w};
+    for (int i = 0; i < 3; ++i) {
+      const T r_i = (to.z.re * rates[i].re + to.z.im * rates[i].im) * per_r;
+      x_by[i] += weight * (rates[i].re - cosine * r_i) * per_r;
+      v_by[i] += weight * (r * rates[i].re + to.z.re * r_i);
     }
-  }
+  });
   const T both = Equal ? T(2) : T(1);
   const T per_length = both * length * inverse;
   const T per_volume = both * pi<T> * length * inverse * inverse * inverse;
@@ -530,7 +565,6 @@ template <int N, bool Equal, std::floating_point T>
   s.lambda_by[1] = T(0);
   s.lambda_by[2] = (front.re * start.z_w.re + front.im * start.z_w.im) * inverse;
   s.lambda_by[3] = T(0);
-  s.modulus = sqrt(front.re * front.re + front.im * front.im);
   s.span = T(-2) * k * both * length;
   return s;
 }
@@ -546,6 +580,7 @@ template <int N, std::floating_point T>
 [[nodiscard]] inline T profile_area(const surface_pair<T>& pair, const profile<T>& u) noexcept {
   using std::asinh;
   using std::atan;
+  using std::atan2;
   using std::cos;
   using std::sin;
   using std::sqrt;
@@ -554,14 +589,14 @@ template <int N, std::floating_point T>
   if (u.by == chart::from_contact) {
     const contact_circle<T> first(pair.side[0], u.w[0]);
     const circle_point<T> start(first, 0);
-    for (std::size_t j = 0; j < static_cast<std::size_t>(N); ++j) {
-      for (int mirror = 0; mirror < 2; ++mirror) {
-        const T angle = u.k * u.extent * T(0.5) * (mirror == 0 ? T(1) - rule.node[j] : T(1) + rule.node[j]);
-        const complex_point<T> half{cos(angle), sin(angle)};
-        const complex_point<T> z = half * half * start.z + half.turned() * (half.im / u.k);
-        area += T(0.5) * rule.weight[j] * sqrt(z.re * z.re + z.im * z.im);
-      }
-    }
+    const complex_point<T> front{T(1) + T(2) * u.k * start.z.re, T(2) * u.k * start.z.im};
+    visit_nodes<N>(sqrt(front.re * front.re + front.im * front.im), -atan2(front.im, front.re), T(-2) * u.k * u.extent,
+                   [&](const T& fraction, const T& weight) {
+                     const T angle = u.k * u.extent * fraction;
+                     const complex_point<T> half{cos(angle), sin(angle)};
+                     const complex_point<T> z = half * half * start.z + half.turned() * (half.im / u.k);
+                     area += weight * sqrt(z.re * z.re + z.im * z.im);
+                   });
     return T(2) * pi<T> * u.extent * area * (pair.equal ? T(2) : T(1));
   }
   const T a = u.k * u.extent;

@@ -101,6 +101,7 @@ inline void choose_chart(const surface_pair<T>& pair, profile<T>& u) noexcept {
   T im[2];
   T p[2];
   T lambda[2];
+  T thinnest[2];
   for (int i = 0; i < 2; ++i) {
     const auto side = static_cast<std::size_t>(i);
     const contact_circle<T> at(pair.side[side], u.w[side]);
@@ -108,13 +109,15 @@ inline void choose_chart(const surface_pair<T>& pair, profile<T>& u) noexcept {
     im[i] = T(2) * u.k * at.radius * at.cosine;
     p[i] = sqrt(re[i] * re[i] + im[i] * im[i]);
     lambda[i] = at.radius * (at.sine + u.k * at.radius);
+    thinnest[i] = T(1e-3) * at.radius;
   }
   const T least = smaller(p[0], p[1]);
-  const bool bulge = im[0] > T(0) && im[1] > T(0) && u.k < T(0);  // both circles on the way to it
-  const bool between = im[0] < T(0) && im[1] < T(0);              // a neck between them
+  const bool bulge = im[0] > T(0) && im[1] > T(0) && u.k < T(0);      // both circles on the way to it
+  const bool between = im[0] < T(0) && im[1] < T(0);                  // a neck between them
+  const T thin = between ? T(0) : smaller(thinnest[0], thinnest[1]);  // of a virtual neck
   const bool neck =
-      !(u.k < T(0)) || (!bulge && (between || re[0] + re[1] > T(0)) && least > T(0.1) && lambda[0] > T(0) &&
-                        lambda[1] > T(0) && re[0] > T(-0.9) * p[0] && re[1] > T(-0.9) * p[1]);
+      !(u.k < T(0)) || (!bulge && (between || re[0] + re[1] > T(0)) && least > T(0.1) && lambda[0] > thin &&
+                        lambda[1] > thin && re[0] > T(-0.9) * p[0] && re[1] > T(-0.9) * p[1]);
   const auto length = [&](const T& turned) {
     return T(0.5) * (atan2(im[0], re[0]) - turned + (Equal ? T(0) : atan2(im[1], re[1]) - turned)) / u.k;
   };
@@ -198,7 +201,7 @@ template <bool Equal, std::floating_point T>
   } else {
     index.at_suction = (f.at.turn[0] * f.at.cosine[0] < T(0) ? 1 : 0) + (f.at.turn[1] * f.at.cosine[1] < T(0) ? 1 : 0) +
                        (stiffens ? 1 : 0) + extrema(f.at) - 1;
-    index.slides = Equal && f.at.turn[0] * f.at.cosine[0] < T(0);
+    index.slides = Equal && (f.at.turn[0] * f.at.cosine[0] < T(0) || extrema(f.at) > 1);
   }
   index.at_volume = index.at_suction - (swells ? 1 : 0);
   // where the circles begin to slide dλ/dg changes its sign with them; rounding may let it go first

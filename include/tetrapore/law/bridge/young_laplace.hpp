@@ -118,7 +118,8 @@ struct young_laplace {
   }
 
   /// The highest suction at which a bridge spans the gap of the edge: below it there is one, above it none. Infinite
-  /// where the surfaces touch or overlap; absent where the gap is too wide for any positive suction. \par Units [Pa]
+  /// where the surfaces touch or overlap; absent where the gap is too wide for any positive suction (on a plane at
+  /// θ = 0, where it falls off exponentially: for any that a number holds). \par Units [Pa]
   template <std::floating_point T>
   [[nodiscard]] outcome<T, bridge_status> highest_suction(const edge<T>& e) const noexcept {
     if (!in_domain(e)) {
@@ -246,6 +247,14 @@ struct young_laplace {
     return (by == bridge_control::volume ? i.at_volume : i.at_suction) == 0;
   }
 
+  /// Whether no bridge at this k ends on both surfaces: on a plane at θ = 0 it has λ = kw², so that the slope of the
+  /// profile, cos φ = k (w² − r²) / r, leads from the circle into the liquid's side only where k > 0.
+  template <class W>
+  [[nodiscard]] static bool floods(const detail::surface_pair<W>& pair, const detail::demand<W>& d) noexcept {
+    const auto flat = [](const detail::wetted_surface<W>& on) { return !(on.curvature > W(0)) && !(on.sine > W(0)); };
+    return d.by == bridge_control::suction && !(d.value > W(0)) && (flat(pair.side[0]) || flat(pair.side[1]));
+  }
+
   /// How many nodes the last digits need: near a fold the error of the quadrature is amplified.
   static constexpr int fine = 2 * Nodes;
   static constexpr int rough = 6;  ///< enough to tell that a gap is a per cent beyond the fold
@@ -300,6 +309,9 @@ struct young_laplace {
   template <bool Equal, class W>
   [[nodiscard]] static bridge_status travel_to(const detail::surface_pair<W>& pair, const detail::demand<W>& d,
                                                detail::found<W>& f) noexcept {
+    if (floods(pair, d)) {
+      return bridge_status::flooded;
+    }
     auto trip = detail::travel<rough, Equal>(pair, d, d.gap);
     if (trip.how == detail::arrival::at_target) {
       f = detail::newton<fine, Equal>(pair, d, trip.end.u);
@@ -385,7 +397,11 @@ struct young_laplace {
   template <class T, bool Equal, class W = work<T>>
   [[nodiscard]] outcome<bridge_limit<T>, bridge_status> widest_of(const detail::surface_pair<W>& pair,
                                                                   const detail::demand<W>& d) const noexcept {
-    const auto trip = detail::travel<fine, Equal>(pair, d, infinity<W>);
+    detail::journey<W> trip;
+    trip.how = detail::arrival::at_limit;
+    if (!floods(pair, d)) {
+      trip = detail::travel<fine, Equal>(pair, d, infinity<W>);
+    }
     if (trip.how == detail::arrival::at_fold || trip.how == detail::arrival::at_slide) {
       const W scale = trip.end.at.scale;
       const W volume = d.by == bridge_control::volume ? d.value : trip.end.at.volume * scale * scale * scale;
@@ -454,13 +470,48 @@ struct young_laplace {
       (now > W(0) ? low : high) = middle;
       (now > W(0) ? at_low : at_high) = now;
     }
-    if (!(at_high > W(0)) && calls < cap && solved_at(high) && f.u.k > W(0)) {
+    // where the fold was missed for want of bridges beside it the slope is none of a summit
+    if (at_low > W(0) && isfinite(at_low) && !(at_high > W(0)) && calls < cap && solved_at(high) && f.u.k > W(0) &&
+        std::abs(slope()) < W(1e-3) * f.u.k) {
       return {static_cast<T>(W(2) * static_cast<W>(surface_tension.get()) * f.u.k), bridge_status::ok};
     }
     d = {static_cast<W>(gap), W(0), bridge_control::suction};
     const bridge_status flat = travel_to<Equal>(pair, d, f);
     const bool none = flat == bridge_status::ruptured || flat == bridge_status::lopsided;
-    return {none ? T(0) : T(quiet_nan<T>), none ? flat : bridge_status::not_converged};
+    return none ? outcome<T, bridge_status>{T(0), flat} : driest_by_march<T, Equal>(pair, gap);
+  }
+
+  /// The inverse of the widest gap by secants: on a plane at θ = 0 it grows about as −ln k.
+  template <class T, bool Equal, class W = work<T>>
+  [[nodiscard]] outcome<T, bridge_status> driest_by_march(const detail::surface_pair<W>& pair,
+                                                          const T& gap) const noexcept {
+    using std::exp;
+    using std::log;
+    constexpr int cap = 40;
+    const W least = log(std::numeric_limits<W>::min()) + W(10);
+    W x = log(W(0.01) * (pair.side[0].curvature + pair.side[1].curvature));
+    W step(-1);
+    W before(0);
+    for (int i = 0; i < cap; ++i) {
+      const W k = exp(x);
+      const auto trip = detail::travel<fine, Equal>(pair, {W(0), k, bridge_control::suction}, infinity<W>);
+      if (trip.how != detail::arrival::at_fold && trip.how != detail::arrival::at_slide) {
+        break;
+      }
+      const W miss = trip.end.reach - static_cast<W>(gap);
+      if (std::abs(miss) < W(1e-13) * static_cast<W>(gap)) {
+        return {static_cast<T>(W(2) * static_cast<W>(surface_tension.get()) * k), bridge_status::ok};
+      }
+      if (i > 0) {
+        step *= miss / (before - miss);
+      }
+      before = miss;
+      x += step;
+      if (x < least) {
+        return {T(0), bridge_status::ruptured};
+      }
+    }
+    return {T(quiet_nan<T>), bridge_status::not_converged};
   }
 
   template <class T, class W = work<T>>
