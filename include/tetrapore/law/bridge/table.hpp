@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
 /// \file
 /// A bridge law of one material pair from a table, made at start-up from any law that also knows where its bridges end.
@@ -120,10 +121,59 @@ struct column_solver<Law> {
   }
 };
 
-/// Degree 7, in pairs, so that the products do not wait for each other.
-[[nodiscard]] inline double polynomial(const std::array<double, 8>& c, double x) noexcept {
+/// Degree 6, in pairs, so that the products do not wait for each other.
+[[nodiscard]] inline double polynomial(const std::array<double, 7>& c, double x) noexcept {
   const double x2 = x * x;
-  return ((c[0] + x * c[1]) + x2 * (c[2] + x * c[3])) + (x2 * x2) * ((c[4] + x * c[5]) + x2 * (c[6] + x * c[7]));
+  return ((c[0] + x * c[1]) + x2 * (c[2] + x * c[3])) + (x2 * x2) * ((c[4] + x * c[5]) + x2 * c[6]);
+}
+
+/// The gap at which the force turns back, in the widest one of stable bridges, where these end before: along a curve of
+/// bridges the gap is smooth in the force, and has its maximum there. NaN where there is none in reach.
+template <class Law>
+[[nodiscard]] double turning_gap(const Law& law, edge<double> e, given_volume<double> liquid, double widest) noexcept {
+  constexpr std::size_t n = 8;
+  constexpr double reach = 0.1;     // how much of the gap the first look takes in; then some 10 times what is beyond
+  constexpr double nearest = 1e-6;  // and this at least
+  double part = reach;
+  double beyond = 0;
+  for (int look = 0; look < 3; ++look) {
+    std::array<double, n> force;
+    std::array<double, n> gap;  // in the widest, less 1; then divided differences
+    for (std::size_t i = 0; i < n; ++i) {
+      const double x = 0.55 - 0.45 * std::cos(pi<double> * (static_cast<double>(i) + 0.5) / static_cast<double>(n));
+      e.gap = widest * (1 - part * x * x);
+      gap[i] = e.gap / widest - 1;
+      force[i] = law.bridge(e, liquid).value.force;
+    }
+    for (std::size_t j = 1; j < n; ++j) {
+      for (std::size_t i = n; i-- > j;) {
+        gap[i] = (gap[i] - gap[i - 1]) / (force[i] - force[i - j]);
+      }
+    }
+    double f = force[0];
+    double step = f;
+    for (int newton = 0; newton < 20 && size_of(step) > 1e-13 * size_of(force[0]); ++newton) {
+      double slope = 0;
+      double bend = 0;
+      beyond = gap[n - 1];
+      for (std::size_t i = n - 1; i-- > 0;) {
+        bend = bend * (f - force[i]) + 2 * slope;
+        slope = slope * (f - force[i]) + beyond;
+        beyond = beyond * (f - force[i]) + gap[i];
+      }
+      step = -slope / bend;
+      if (!(bend < 0)) {
+        return quiet_nan<double>;
+      }
+      f += step;
+    }
+    if (!(beyond <= reach)) {
+      return quiet_nan<double>;
+    }
+    beyond = beyond > 0 ? beyond : 0;
+    part = nearest + reach * beyond / (0.1 * reach + beyond);  // smooth, so that the gap is smooth in the volume
+  }
+  return widest * (1 + beyond);
 }
 
 }  // namespace detail
@@ -151,22 +201,24 @@ struct table_report {
 
 /// The storage of a table and its look-up; the caller keeps it, the law `tabulated` points to it.
 ///
-/// Volumes lie in quarters of octaves. Each holds the rupture gap D_r and a length s, and cells of equal width in
+/// Volumes lie in eighths of octaves. Each holds the gap D_f at which bridges fold, a length s, and cells of equal
+/// width in
 ///
-///   y = √(s (D_r − D) / ((s + D) D_r)), 1 at contact and 0 at rupture, where the force is smooth in y,
+///   y = √(s (D_f − D) / ((s + D) D_f)), 1 at contact and 0 at the fold, where the force is smooth in y,
 ///
-/// (where equal spheres lose their bridge to the lopsided limit, just before it folds, cells that narrow towards
-/// rupture), in each a polynomial of degree 4 in the volume and 5 in y, continuous from cell to cell. The bits of the
-/// volume are the cell and the place in it, so that a look-up takes one square root and no logarithm. Overlaps have
-/// cells of their own.
+/// in each a polynomial of degree 3 in the volume and 4 in y, continuous from cell to cell. Where the liquid of equal
+/// spheres slides to one side before the bridge folds, D_f is the gap at which it would, so that the force stays smooth
+/// in y, and the y of the last bridge is a curve of its own: it starts from 0 at the volume from which on the liquid
+/// slides. The bits of the volume are the cell and the place in it, so that a look-up takes one square root and no
+/// logarithm. Overlaps have cells of their own.
 /// \par Units   inside: lengths in R₁, forces over R₁ [N/m]
 /// \par Source  the variables are this project's; after a table in (ln V, √(1 − ξ)), ξ a ratio of logarithms of the gap
-template <int Octaves = 16, int GapCells = 16>
-  requires(Octaves > 0 && GapCells > 1)
+template <int Octaves = 20, int GapCells = 20>
+  requires(0 < Octaves && Octaves <= 63 && 1 < GapCells)
 class bridge_table {
  public:
-  /// Error of the force in the largest force of a table of the exact law, for every pair and volume of open_bridge.csv;
-  /// what a table has of its own is in its report. With 16 cells or more.
+  /// Error of the force in the largest force of a table of the exact law, around every pair and volume of
+  /// open_bridge.csv; what a table has of its own is in its report. With 20 cells or more.
   static constexpr double stated_accuracy = 1e-6;
 
   /// Fills the table by the law, whose angles and surface tension are those of the pair, and measures it between its
@@ -176,8 +228,7 @@ class bridge_table {
     rows_ = 0;
     top_ = 0;
     const edge<double> pair{range.radius1, range.radius2, 0, {}};
-    if (detail::admit_pair(pair, 1.0, 0.0, 0.0) != bridge_status::ok ||
-        !detail::finite_and_positive(range.least_volume.get()) ||
+    if (!sound(pair) || !detail::finite_and_positive(range.least_volume.get()) ||
         !detail::finite_and_positive(range.largest_volume.get()) || !(range.largest_volume > range.least_volume) ||
         !(range.deepest_overlap >= 0) || !(range.deepest_overlap < range.radius1) ||
         !(range.deepest_overlap < range.radius2)) {
@@ -188,8 +239,9 @@ class bridge_table {
     if (!(span < static_cast<double>(std::uint64_t{1} << Octaves)) || rows > row_count) {
       return refused(bridge_status::not_covered);
     }
-    radius1_ = range.radius1;
-    ratio_ = range.radius2 / range.radius1;
+    plane_first_ = !(range.radius1 < infinity<double>);
+    radius1_ = plane_first_ ? range.radius2 : range.radius1;
+    ratio_ = plane_first_ ? infinity<double> : range.radius2 / range.radius1;
     unit_ = range.least_volume / (radius1_ * radius1_ * radius1_);
     per_unit_ = 1 / unit_;
     per_radius1_ = 1 / radius1_;
@@ -203,31 +255,35 @@ class bridge_table {
     return made;
   }
 
-  /// The force by the table. \par Units  [m], [m³]
+  /// The force by the table, for a ratio of radii that is its own but for a relative tolerance. \par Units  [m], [m³]
   [[nodiscard]] outcome<bridge_pull<double>, bridge_status> pull(double radius1, double radius2, double gap_of_pair,
-                                                                 double volume) const noexcept {
-    const bool swapped = exchangeable_ && !alike(radius2, radius1);
+                                                                 double volume,
+                                                                 double tolerance = 1e-9) const noexcept {
+    const bool swapped = exchangeable_ ? !alike(radius2, radius1, tolerance) : plane_first_;
     const double radius = swapped ? radius2 : radius1;
     const double other = swapped ? radius1 : radius2;
     const double inverse = radius == radius1_ ? per_radius1_ : 1 / radius;
     const double v = volume * (inverse * inverse * inverse) * per_unit_;
-    if (!(v >= 1 && v < top_) || !alike(other, radius)) {
+    if (!(v >= 1 && v < top_) || !alike(other, radius, tolerance)) {
       return detail::no_pull<double>(why_not({radius1, radius2, gap_of_pair, {}}, volume));
     }
     const place at = place_of(v);
     const row& cells = row_[at.row];
     const double gap = gap_of_pair * inverse;
-    const double rupture = detail::polynomial(cells.rupture, at.t);
-    if (!(gap <= rupture)) {
-      return detail::no_pull<double>(gap > rupture && gap <= largest ? cells.beyond : bridge_status::invalid_input);
+    const double fold = detail::polynomial(cells.fold, at.t);
+    if (!(gap <= fold)) {
+      return detail::no_pull<double>(gap > fold && gap <= largest ? cells.beyond(at.t) : bridge_status::invalid_input);
     }
     const double s = cells.scale + cells.scale_slope * at.t;
-    double z;  // in widths of a cell, from rupture to contact and on into the overlap
+    double z;  // in widths of a cell, from the last bridge to contact and on into the overlap
     if (gap >= 0) {
-      const double y = std::sqrt(s * (rupture - gap) / ((s + gap) * rupture));
-      z = GapCells * (graded_ ? (std::sqrt(grade * grade + 4 * (1 + grade) * y) - grade) / 2 : y);
+      const double y = std::sqrt(s * (fold - gap) / ((s + gap) * fold));
+      if (cells.slides(at.t) && y < detail::polynomial(cells.last, at.t)) {
+        return detail::no_pull<double>(bridge_status::lopsided);
+      }
+      z = GapCells - (1 - y) * (cells.width + cells.width_slope * at.t);
     } else if (gap >= -depth_) {
-      z = GapCells + OverlapCells * (gap * (s + depth_) / ((gap - s) * depth_));
+      z = GapCells + OverlapCells * (gap * (into * s + depth_) / ((gap - into * s) * depth_));
     } else {
       return detail::no_pull<double>(gap > -1 && gap > -ratio_ ? bridge_status::not_covered
                                                                : bridge_status::invalid_input);
@@ -238,36 +294,50 @@ class bridge_table {
   }
 
  private:
-  static constexpr int per_octave = 4;
+  static constexpr int per_octave = 8;
   static constexpr int row_count = Octaves * per_octave;
-  static constexpr int OverlapCells = 3;
-  static constexpr std::size_t volume_nodes = 5;
-  static constexpr std::size_t gap_nodes = 6;
-  static constexpr std::size_t rupture_nodes = 8;
+  static constexpr int OverlapCells = 8;
+  static constexpr std::size_t volume_nodes = 4;
+  static constexpr std::size_t gap_nodes = 5;
+  static constexpr std::size_t limit_nodes = 7;
   static constexpr std::size_t cell_count = static_cast<std::size_t>(GapCells + OverlapCells);
   static constexpr std::size_t column_length = (gap_nodes - 1) * cell_count + 1;
 
   /// A polynomial in the place in the volume cell and the place in the gap cell, both from −1 to 1.
   struct patch {
-    std::array<std::array<double, gap_nodes>, volume_nodes> by;  ///< by power of the volume, then of the gap
+    std::array<std::array<double, volume_nodes>, gap_nodes> by;  ///< by power of the gap, then of the volume
 
     [[nodiscard]] double at(double t, double y) const noexcept {
-      std::array<double, gap_nodes> c = by[volume_nodes - 1];
-      for (std::size_t i = volume_nodes - 1; i-- > 0;) {
-        for (std::size_t j = 0; j < gap_nodes; ++j) {
-          c[j] = c[j] * t + by[i][j];
-        }
-      }
       const double y2 = y * y;
-      return (c[0] + y * c[1]) + y2 * ((c[2] + y * c[3]) + y2 * (c[4] + y * c[5]));
+      const double y4 = y2 * y2;
+      std::array<double, volume_nodes> c;
+      for (std::size_t i = 0; i < volume_nodes; ++i) {
+        c[i] = ((by[0][i] + y * by[1][i]) + y2 * (by[2][i] + y * by[3][i])) + y4 * by[4][i];
+      }
+      return (c[0] + t * c[1]) + (t * t) * (c[2] + t * c[3]);
     }
   };
   struct row {
-    std::array<double, rupture_nodes> rupture;  ///< coefficients of the rupture gap, in R₁
-    double scale;                               ///< s in the middle, in R₁
+    std::array<double, limit_nodes> fold;  ///< coefficients of the gap where bridges fold, in R₁
+    double scale;                          ///< s in the middle, in R₁
     double scale_slope;
-    bridge_status beyond;  ///< what the law says beyond the rupture gap
+    double width;  ///< gap cells per unit of y, in the middle
+    double width_slope;
+    double turn;  ///< the liquid slides to one side where direction × place > turn
+    double direction;
+    std::array<double, limit_nodes> last;  ///< coefficients of the y of the last bridge, where the liquid slides
+    bridge_status beyond_fold;             ///< what the law says there
     std::array<patch, cell_count> force;
+
+    [[nodiscard]] bool slides(double t) const noexcept { return direction * t > turn; }
+    [[nodiscard]] double last_y(double t) const noexcept { return slides(t) ? detail::polynomial(last, t) : 0; }
+    [[nodiscard]] bridge_status beyond(double t) const noexcept {
+      return slides(t) ? bridge_status::lopsided : beyond_fold;
+    }
+    /// The place of the last bridge, in widths of a cell.
+    [[nodiscard]] double lowest(double t) const noexcept {
+      return GapCells - (1 - last_y(t)) * (width + width_slope * t);
+    }
   };
   struct place {
     std::size_t row;
@@ -275,33 +345,40 @@ class bridge_table {
   };
 
   [[nodiscard]] static int cell_of(double v) noexcept {
-    return static_cast<int>(std::bit_cast<std::uint64_t>(v) >> 50) - 1023 * per_octave;
+    return static_cast<int>(std::bit_cast<std::uint64_t>(v) >> 49) - 1023 * per_octave;
   }
   [[nodiscard]] static place place_of(double v) noexcept {
-    constexpr std::uint64_t low_bits = (std::uint64_t{1} << 50) - 1;
+    constexpr std::uint64_t low_bits = (std::uint64_t{1} << 49) - 1;
     constexpr std::uint64_t one = std::uint64_t{1023} << 52;
-    const double within = std::bit_cast<double>((std::bit_cast<std::uint64_t>(v) & low_bits) | one);  // 1 to 1.25
-    return {static_cast<std::size_t>(cell_of(v)), within * 8 - 9};
+    const double within = std::bit_cast<double>((std::bit_cast<std::uint64_t>(v) & low_bits) | one);  // 1 to 1.125
+    return {static_cast<std::size_t>(cell_of(v)), within * 16 - 17};
   }
   /// The volume, in the least one, at a place in a row.
   [[nodiscard]] static double volume_at(int k, double t) noexcept {
-    return std::ldexp(1 + (k % per_octave) * 0.25 + (t + 1) * 0.125, k / per_octave);
+    return std::ldexp(1 + (k % per_octave) * 0.125 + (t + 1) * 0.0625, k / per_octave);
   }
   [[nodiscard]] static double upper_end(int k) noexcept { return volume_at(k, 1); }
 
-  [[nodiscard]] bool alike(double other, double radius) const noexcept {
+  [[nodiscard]] bool alike(double other, double radius, double tolerance) const noexcept {
     const double expected = radius * ratio_;
-    return other == expected || (other - expected < 1e-9 * other && expected - other < 1e-9 * other);
+    return other == expected || (other - expected < tolerance * other && expected - other < tolerance * other);
   }
-  static constexpr double grade = 0.3;
+  static constexpr double far_fold = 1.06;  ///< in the widest gap
+  static constexpr double into = 3;         ///< the length of an overlap over that of a gap
   static constexpr double largest = std::numeric_limits<double>::max();
 
   /// Why the fast path has no answer: bad input, no liquid, another pair or a volume outside the table.
   [[nodiscard]] bridge_status why_not(const edge<double>& e, double volume) const noexcept {
-    if (detail::admit_pair(e, 1.0, 0.0, 0.0) != bridge_status::ok || !(volume >= 0) || !(volume <= largest)) {
+    if (!sound(e) || !(volume >= 0) || !(volume <= largest)) {
       return bridge_status::invalid_input;
     }
     return volume > 0 ? bridge_status::not_covered : bridge_status::no_liquid;
+  }
+
+  /// Two spheres, or a sphere and a plane, in either order.
+  [[nodiscard]] static bool sound(const edge<double>& e) noexcept {
+    const double smaller = e.radius1 < e.radius2 ? e.radius1 : e.radius2;
+    return e.radius1 > 0 && e.radius2 > 0 && smaller <= largest && e.gap > -smaller && e.gap <= largest;
   }
 
   [[nodiscard]] static table_report refused(bridge_status why) noexcept {
@@ -310,82 +387,192 @@ class bridge_table {
   }
 
   [[nodiscard]] edge<double> pair_at(double gap) const noexcept {
-    return {radius1_, radius1_ * ratio_, radius1_ * gap, {0, 0, 1}};
+    const double other = radius1_ * ratio_;
+    return {plane_first_ ? other : radius1_, plane_first_ ? radius1_ : other, radius1_ * gap, {0, 0, 1}};
   }
   [[nodiscard]] given_volume<double> liquid_at(int k, double t) const noexcept {
     return {volume_at(k, t) * unit_ * radius1_ * radius1_ * radius1_};
   }
 
-  /// The gap of a place z, in widths of a cell from rupture on.
-  [[nodiscard]] double gap_of(double z, double rupture, double s) const noexcept {
+  [[nodiscard]] static double scale_at(const row& r, double t) noexcept { return r.scale + r.scale_slope * t; }
+
+  /// The gap of a place z of a row, in widths of a cell from the fold on.
+  [[nodiscard]] double gap_of(const row& r, double t, double z) const noexcept {
+    const double s = scale_at(r, t);
     if (z <= GapCells) {
-      const double u = z / GapCells;
-      const double y = graded_ ? u * (u + grade) / (1 + grade) : u;
+      const double fold = detail::polynomial(r.fold, t);
+      const double y = 1 - (GapCells - z) / (r.width + r.width_slope * t);
       const double q = y * y;
-      return s * rupture * (1 - q) / (s + q * rupture);
+      return s * fold * (1 - q) / (s + q * fold);
     }
     const double u = (z - GapCells) / OverlapCells;
-    return -u * s * depth_ / (s + depth_ * (1 - u));
+    return -u * into * s * depth_ / (into * s + depth_ * (1 - u));
+  }
+  /// A place in the cell of the last bridge, of −1 to 1 over the part of it that has bridges.
+  [[nodiscard]] static double in_first_cell(const row& r, double t, double x) noexcept {
+    return 1 + (x - 1) * (1 - r.lowest(t));
+  }
+
+  /// Where the bridges of a volume end.
+  struct limit {
+    bridge_status reason;
+    bridge_status beyond;  ///< what the law says beyond
+    double gap;            ///< the widest, in R₁
+    double fold;           ///< where they fold; see with_fold
+
+    [[nodiscard]] bool slides() const noexcept { return beyond == bridge_status::lopsided; }
+  };
+  template <tabulable Law>
+  [[nodiscard]] limit limit_at(const Law& law, int k, double t) const noexcept {
+    const given_volume<double> liquid = liquid_at(k, t);
+    const auto widest = law.rupture_gap(pair_at(0), liquid);
+    limit found{widest.reason, bridge_status::ok, widest.value.gap / radius1_, widest.value.gap / radius1_};
+    if (!widest.ok()) {
+      return found;
+    }
+    found.beyond = law.bridge(pair_at(found.gap * 1.001), liquid).reason;
+    if (!(found.gap > 0) || verdict_of(found.beyond) != verdict::absent) {
+      found.reason = !(found.gap > 0) || found.beyond == bridge_status::ok ? bridge_status::not_covered : found.beyond;
+    }
+    return found;
+  }
+
+  /// The same, with the gap at which bridges that end before would fold; NaN where that is far.
+  template <tabulable Law>
+  [[nodiscard]] limit with_fold(const Law& law, int k, double t) const noexcept {
+    limit found = limit_at(law, k, t);
+    if (found.reason == bridge_status::ok && found.slides()) {
+      found.fold = detail::turning_gap(law, pair_at(0), liquid_at(k, t), found.gap * radius1_) / radius1_;
+    }
+    return found;
+  }
+
+  /// The curves of a row: where its bridges fold, and where the liquid slides to one side. `lower` is where the bridges
+  /// at its lower end end, known from the row before it, and becomes that of its upper end.
+  template <tabulable Law>
+  [[nodiscard]] bridge_status draw_limits(const Law& law, int k, limit& lower) noexcept {
+    const auto places = detail::ends_and_between<limit_nodes>();
+    const auto fit = detail::coefficients_of(places);
+    std::array<limit, limit_nodes> at;
+    std::array<double, limit_nodes> fold;
+    bool far = false;
+    for (std::size_t i = 0; i < limit_nodes; ++i) {
+      at[i] = i == 0 ? lower : with_fold(law, k, places[i]);
+      if (at[i].reason != bridge_status::ok) {
+        return at[i].reason;
+      }
+      fold[i] = at[i].fold;
+      far = far || !(fold[i] > 0);
+    }
+    lower = at.back();
+    if (far) {  // any smooth curve beyond the bridges will do
+      for (std::size_t i = 0; i < limit_nodes; ++i) {
+        fold[i] = far_fold * at[i].gap;
+      }
+    }
+    row& made = row_[static_cast<std::size_t>(k)];
+    made.fold = detail::product(fit, fold);
+    const double low = scale_of(volume_at(k, -1), fold.front());
+    const double high = scale_of(volume_at(k, 1), fold.back());
+    made.scale = (low + high) / 2;
+    made.scale_slope = (high - low) / 2;
+    made.beyond_fold = at[at.front().slides() ? limit_nodes - 1 : 0].beyond;
+    return draw_last(law, k, at);
+  }
+  /// The part of draw_limits that concerns liquid that slides.
+  template <tabulable Law>
+  [[nodiscard]] bridge_status draw_last(const Law& law, int k, const std::array<limit, limit_nodes>& at) noexcept {
+    row& made = row_[static_cast<std::size_t>(k)];
+    const auto places = detail::ends_and_between<limit_nodes>();
+    const auto y_at = [&](double t, double gap) {
+      const double s = scale_at(made, t);
+      const double fold = detail::polynomial(made.fold, t);
+      const double q = s * (fold - gap) / ((s + gap) * fold);
+      return q > 0 ? std::sqrt(q) : 0;
+    };
+    made.last = {};
+    made.direction = 1;
+    made.turn = at.front().slides() ? -2 : 2;
+    if (at.front().slides() && at.back().slides()) {
+      std::array<double, limit_nodes> y;
+      for (std::size_t i = 0; i < limit_nodes; ++i) {
+        y[i] = y_at(places[i], at[i].gap);
+      }
+      made.last = detail::product(detail::coefficients_of(places), y);
+    } else if (at.front().slides() != at.back().slides()) {
+      made.direction = at.back().slides() ? 1 : -1;
+      double folding = -made.direction;
+      double sliding = made.direction;
+      for (int i = 0; i < 45; ++i) {
+        const double t = (folding + sliding) / 2;
+        const limit there = limit_at(law, k, t);
+        if (there.reason != bridge_status::ok) {
+          return there.reason;
+        }
+        (there.slides() ? sliding : folding) = t;
+      }
+      made.turn = made.direction * folding;
+      constexpr std::size_t n = 4;  // the y of the last bridge begins at 0 there, and is small
+      std::array<double, n> t = detail::ends_and_between<n>();
+      std::array<double, n> y{};
+      for (std::size_t i = 0; i < n; ++i) {
+        t[i] = folding + (made.direction - folding) * (t[i] + 1) / 2;
+        if (i > 0) {
+          const limit there = limit_at(law, k, t[i]);
+          if (there.reason != bridge_status::ok) {
+            return there.reason;
+          }
+          y[i] = y_at(t[i], there.gap);
+        }
+      }
+      const auto fitted = detail::product(detail::coefficients_of(t), y);
+      for (std::size_t i = 0; i < n; ++i) {
+        made.last[i] = fitted[i];
+      }
+    }
+    const double low = GapCells / (1 - made.last_y(-1));
+    const double high = GapCells / (1 - made.last_y(1));
+    made.width = (low + high) / 2;
+    made.width_slope = (high - low) / 2;
+    return bridge_status::ok;
   }
 
   template <tabulable Law>
   [[nodiscard]] table_report fill(const Law& law, int rows) noexcept {
     table_report report{bridge_status::ok, 0, 0, 0, 0, 0, 0};
-    const auto rupture_places = detail::ends_and_between<rupture_nodes>();
     const auto volume_places = detail::ends_and_between<volume_nodes>();
     const auto gap_places = detail::ends_and_between<gap_nodes>();
     const auto first_places = detail::upper_end_and_between<gap_nodes>();
-    const auto rupture_fit = detail::coefficients_of(rupture_places);
     const auto volume_fit = detail::coefficients_of(volume_places);
     const auto gap_fit = detail::coefficients_of(gap_places);
-    const auto first_fit = detail::coefficients_of(first_places);
     const int cells = depth_ > 0 ? GapCells + OverlapCells : GapCells;
     std::array<std::array<double, column_length>, volume_nodes> force;  // over R₁, by place in the volume
     double most = 0;
-
-    graded_ = false;
+    limit lower = with_fold(law, 0, -1);
     for (int k = 0; k < rows; ++k) {
+      const bridge_status drawn = draw_limits(law, k, lower);
+      if (drawn != bridge_status::ok) {
+        return refused(drawn);
+      }
       row& made = row_[static_cast<std::size_t>(k)];
-      std::array<double, rupture_nodes> rupture;
-      for (std::size_t i = 0; i < rupture_nodes; ++i) {
-        const bridge_status found = rupture_at(law, k, rupture_places[i], rupture[i]);
-        if (found != bridge_status::ok) {
-          return refused(found);
-        }
-      }
-      made.rupture = detail::product(rupture_fit, rupture);
-      const bridge_status found = keep_within(law, k, detail::middles_of(rupture_places));
-      if (found != bridge_status::ok) {
-        return refused(found);
-      }
-      const double lower = scale_of(volume_at(k, -1), rupture.front());
-      const double upper = scale_of(volume_at(k, 1), rupture.back());
-      made.scale = (lower + upper) / 2;
-      made.scale_slope = (upper - lower) / 2;
-      made.beyond =
-          law.bridge(pair_at(rupture[rupture_nodes / 2] * 1.001), liquid_at(k, rupture_places[rupture_nodes / 2]))
-              .reason;
-      if (verdict_of(made.beyond) != verdict::absent) {
-        return refused(made.beyond == bridge_status::ok ? bridge_status::not_covered : made.beyond);
-      }
-      graded_ = graded_ || made.beyond == bridge_status::lopsided;
-    }
-    for (int k = 0; k < rows; ++k) {
-      row& made = row_[static_cast<std::size_t>(k)];
+      std::array<detail::square_matrix<gap_nodes>, volume_nodes> first_fit;
       // the lower end of a row is the upper end of the one before it
       for (std::size_t i = 0; i < volume_nodes; ++i) {
-        if (k > 0 && i == 0 && joined(k)) {
+        const double t = volume_places[i];
+        auto first = first_places;
+        for (double& x : first) {
+          x = in_first_cell(made, t, x);
+        }
+        first_fit[i] = detail::coefficients_of(first);
+        if (i == 0 && k > 0 && joined(k)) {
           force[0] = force[volume_nodes - 1];
           continue;
         }
-        const double t = volume_places[i];
         detail::column_solver<Law> solver{law};
-        for (int c = cells - 1; c >= 0; --c) {  // from the deepest overlap to rupture
-          const auto& places = c == 0 ? first_places : gap_places;
+        for (int c = cells - 1; c >= 0; --c) {  // from the deepest overlap to the last bridge
+          const auto& places = c == 0 ? first : gap_places;
           for (std::size_t j = gap_nodes; j-- > (c == 0 ? 0U : 1U);) {
-            const double gap =
-                gap_of(c + (places[j] + 1) / 2, detail::polynomial(made.rupture, t), made.scale + made.scale_slope * t);
-            const auto answer = solver(pair_at(gap), liquid_at(k, t));
+            const auto answer = solver(pair_at(gap_of(made, t, c + (places[j] + 1) / 2)), liquid_at(k, t));
             if (!answer.ok()) {
               return refused(answer.reason);
             }
@@ -403,56 +590,27 @@ class bridge_table {
           for (std::size_t j = 0; j < gap_nodes; ++j) {
             along[j] = force[i][static_cast<std::size_t>(c) * (gap_nodes - 1) + j];
           }
-          fitted[i] = detail::product(c == 0 ? first_fit : gap_fit, along);
+          fitted[i] = detail::product(c == 0 ? first_fit[i] : gap_fit, along);
         }
         for (std::size_t j = 0; j < gap_nodes; ++j) {
           std::array<double, volume_nodes> across;
           for (std::size_t i = 0; i < volume_nodes; ++i) {
             across[i] = fitted[i][j];
           }
-          const auto powers = detail::product(volume_fit, across);
-          for (std::size_t i = 0; i < volume_nodes; ++i) {
-            made.force[static_cast<std::size_t>(c)].by[i][j] = powers[i];
-          }
+          made.force[static_cast<std::size_t>(c)].by[j] = detail::product(volume_fit, across);
         }
       }
     }
     return check(law, rows, cells, most, report);
   }
 
-  /// The rupture gap of the law, in R₁.
-  template <tabulable Law>
-  [[nodiscard]] bridge_status rupture_at(const Law& law, int k, double t, double& gap) const noexcept {
-    const auto limit = law.rupture_gap(pair_at(0), liquid_at(k, t));
-    gap = limit.value.gap / radius1_;
-    return !limit.ok() ? limit.reason : gap > 0 ? bridge_status::ok : bridge_status::not_covered;
-  }
-
-  /// Lowers the rupture gap of a row to that of the law where it is beyond: in a row in which the fold gives way to the
-  /// lopsided limit it has a bend that no polynomial follows.
-  template <tabulable Law>
-  [[nodiscard]] bridge_status keep_within(const Law& law, int k,
-                                          const std::array<double, rupture_nodes>& places) noexcept {
-    auto& coefficients = row_[static_cast<std::size_t>(k)].rupture;
-    double beyond = 0;
-    for (const double t : places) {
-      double exact = 0;
-      const bridge_status found = rupture_at(law, k, t, exact);
-      if (found != bridge_status::ok) {
-        return found;
-      }
-      const double off = detail::polynomial(coefficients, t) / exact - 1;
-      beyond = off > beyond ? off : beyond;
-    }
-    for (double& c : coefficients) {
-      c *= beyond > 1e-10 ? 1 - 2 * beyond : 1;
-    }
-    return bridge_status::ok;
-  }
-  /// Whether a row begins with the rupture gap with which the one before it ends.
+  /// Whether a row begins as the one before it ends.
   [[nodiscard]] bool joined(int k) const noexcept {
-    const double before = detail::polynomial(row_[static_cast<std::size_t>(k - 1)].rupture, 1);
-    return detail::size_of(detail::polynomial(row_[static_cast<std::size_t>(k)].rupture, -1) / before - 1) < 1e-12;
+    const row& before = row_[static_cast<std::size_t>(k - 1)];
+    const row& here = row_[static_cast<std::size_t>(k)];
+    const double fold = detail::polynomial(here.fold, -1) / detail::polynomial(before.fold, 1) - 1;
+    const double width = (here.width - here.width_slope) / (before.width + before.width_slope) - 1;
+    return detail::size_of(fold) < 1e-12 && detail::size_of(width) < 1e-12;
   }
 
   /// Measures the table between its nodes.
@@ -461,34 +619,37 @@ class bridge_table {
     const auto volume_places = detail::middles_of(detail::ends_and_between<volume_nodes>());
     const auto gap_places = detail::middles_of(detail::ends_and_between<gap_nodes>());
     const auto first_places = detail::middles_of(detail::upper_end_and_between<gap_nodes>());
+    const auto given_up = [this](bridge_status why) {
+      rows_ = 0;
+      top_ = 0;
+      return refused(why);
+    };
     rows_ = rows;
     top_ = upper_end(rows - 1);
     exchangeable_ = false;
     for (int k = 0; k < rows; ++k) {
       const row& made = row_[static_cast<std::size_t>(k)];
-      for (std::size_t i = 2; i + 1 < volume_nodes; ++i) {
+      for (std::size_t i = 1; i < volume_nodes; ++i) {
         const double t = volume_places[i];
         const auto liquid = liquid_at(k, t);
-        const double rupture = detail::polynomial(made.rupture, t);
-        const auto limit = law.rupture_gap(pair_at(0), liquid);
-        const double off = limit.value.gap / (radius1_ * rupture) - 1;
-        if (!limit.ok() || !(off < 1) || !(off > -1)) {
-          rows_ = 0;
-          top_ = 0;
-          return refused(limit.ok() ? bridge_status::not_covered : limit.reason);
+        const auto widest = law.rupture_gap(pair_at(0), liquid);
+        const double off = widest.value.gap / (radius1_ * gap_of(made, t, made.lowest(t))) - 1;
+        if (!widest.ok() || !(off < 1) || !(off > -1)) {
+          return given_up(widest.ok() ? bridge_status::not_covered : widest.reason);
         }
         report.rupture_error =
             detail::size_of(off) > report.rupture_error ? detail::size_of(off) : report.rupture_error;
+        if (i != volume_nodes / 2 && detail::size_of(made.turn) > 1) {
+          continue;  // the middle is the worst place of a row that is smooth
+        }
         for (int c = 0; c < cells; ++c) {
           for (std::size_t j = c == 0 ? 0 : 2; j + 1 < gap_nodes; ++j) {
-            const double y = c == 0 ? first_places[j] : gap_places[j];
-            const auto e = pair_at(gap_of(c + (y + 1) / 2, rupture, made.scale + made.scale_slope * t));
+            const double y = c == 0 ? in_first_cell(made, t, first_places[j]) : gap_places[j];
+            const auto e = pair_at(gap_of(made, t, c + (y + 1) / 2));
             const auto exact = law.bridge(e, liquid);
             const auto mine = pull(e.radius1, e.radius2, e.gap, liquid.value);
             if (!exact.ok() || !mine.ok()) {
-              rows_ = 0;
-              top_ = 0;
-              return refused(exact.ok() ? mine.reason : exact.reason);
+              return given_up(exact.ok() ? mine.reason : exact.reason);
             }
             ++report.checked;
             const double error = detail::size_of(mine.value.force - exact.value.force) / (most * radius1_);
@@ -506,7 +667,7 @@ class bridge_table {
 
   /// Between the length √(V/R) over which the force falls and the rupture gap.
   [[nodiscard]] double scale_of(double v, double rupture) const noexcept {
-    return std::sqrt(std::sqrt(v * unit_) * 0.25 * rupture);
+    return std::sqrt(std::sqrt(v * unit_) * 0.05 * rupture);
   }
 
   template <tabulable Law>
@@ -515,7 +676,7 @@ class bridge_table {
     const given_volume<double> liquid = liquid_at(0, 0.5);
     const auto back = law.bridge(edge<double>{e.radius2, e.radius1, e.gap, e.normal}, liquid);
     const double difference = back.value.force / law.bridge(e, liquid).value.force - 1;
-    return !e.with_plane() && back.ok() && difference < 1e-9 && difference > -1e-9;
+    return back.ok() && difference < 1e-9 && difference > -1e-9;
   }
 
   double radius1_ = 1;
@@ -526,15 +687,16 @@ class bridge_table {
   double top_ = 0;    ///< the end of the last row, in the least volume; 0: empty
   double depth_ = 0;  ///< deepest overlap, in R₁
   bool exchangeable_ = false;
-  bool graded_ = false;  ///< narrower cells towards rupture, where the bridge goes lopsided just before it folds
+  bool plane_first_ = false;  ///< built for a plane and a sphere, so that R₁ is the second radius
   int rows_ = 0;
   std::array<row, static_cast<std::size_t>(row_count)> row_;
 };
 
 /// The force of a pair from a table that the caller keeps and has built.
 /// \par Units   as the table was built: force [N] for lengths [m]
-/// \par Domain  pairs of the table's ratio of radii, at any size; its volumes relative to R³; gaps from its deepest
-///              overlap on: not_covered outside. Beyond the rupture gap the answer of the law it was made from
+/// \par Domain  pairs of the table's ratio of radii (to 1e-9; to a rounding where they are float), at any size; its
+///              volumes relative to R³; gaps from its deepest overlap on: not_covered outside. Beyond the rupture gap
+///              the answer of the law it was made from. Computes in double
 /// \par Source  own; the law that it was made from
 template <class Table = bridge_table<>>
 struct tabulated {
@@ -546,7 +708,8 @@ struct tabulated {
   template <std::floating_point T>
   [[nodiscard]] outcome<bridge_pull<T>, bridge_status> bridge(const edge<T>& e, given_volume<T> liquid) const noexcept {
     const auto answer = table->pull(static_cast<double>(e.radius1), static_cast<double>(e.radius2),
-                                    static_cast<double>(e.gap), static_cast<double>(liquid.value));
+                                    static_cast<double>(e.gap), static_cast<double>(liquid.value),
+                                    std::is_same_v<T, float> ? 4 * static_cast<double>(epsilon<float>) : 1e-9);
     return {{static_cast<T>(answer.value.force)}, answer.reason};
   }
 };
