@@ -67,26 +67,7 @@ class path {
         return p;
       }
       matrix<T, n, n + 1> a;
-      for (int row = 0; row < n; ++row) {
-        for (int column = 0; column < n; ++column) {
-          a[row][column] = p.at.by[row][column];
-        }
-      }
-      a[match_row][n] = -p.at.match[0];
-      if constexpr (!Equal) {
-        a[second_match_row][n] = -p.at.match[1];
-      }
-      const T inverse = T(1) / p.at.scale;
-      a[gap_row][n] = fixed_.gap * inverse - p.at.gap;
-      if (fixed_.by == bridge_control::volume) {
-        a[volume_row][n] = fixed_.value * inverse * inverse * inverse - p.at.volume;
-      } else {
-        a[volume_row][n] = (fixed_.value - p.u.k) * p.at.scale;
-        a[volume_row][0] = T(1);
-        for (int column = 1; column < n; ++column) {
-          a[volume_row][column] = T(0);
-        }
-      }
+      equations<Equal, n + 1>(p.at, p.u, fixed_, a);
       const int free = what_ == along::gap ? gap_row : volume_row;
       for (int column = 0; column < n; ++column) {
         a[free][column] = from.direction[column] * (column == 0 ? T(1) / weight(p) : T(1));
@@ -256,15 +237,10 @@ template <int N, bool Equal, std::floating_point T>
                                        int sense) noexcept {
   using std::isfinite;
   const T sign = sense < 0 ? T(-1) : T(1);
-  journey<T> trip;
-  trip.end = from;
-  trip.how = arrival::lost;
-  if (!from.sound) {
-    return trip;
-  }
-  T h = T(0.1);
+  journey<T> trip{from, arrival::lost};
+  T h = from.sound ? T(0.1) : T(0);
   int iterations = 0;
-  for (int step = 0; step < path<Equal, T>::step_cap; ++step) {
+  for (int step = 0; step < path<Equal, T>::step_cap && h >= T(1e-7); ++step) {
     if (!(sign * (target - from.reach) > T(0))) {
       trip.end = from;
       trip.how = arrival::at_target;
@@ -277,10 +253,6 @@ template <int N, bool Equal, std::floating_point T>
     }
     if (!next.sound || iterations > 5 || turned(from, next)) {
       h *= T(0.4);
-      if (h < T(1e-7)) {
-        trip.end = from;
-        return trip;
-      }
       continue;
     }
     const bool passed = sign * (next.reach - target) >= T(0);
@@ -289,29 +261,23 @@ template <int N, bool Equal, std::floating_point T>
     const bool sliding = Equal && !(hold(next) > T(0));
     if (!sliding && next.index != (folded ? 1 : 0)) {
       h *= T(0.4);
-      if (h < T(1e-7)) {
-        trip.end = from;
-        return trip;
-      }
       continue;
     }
+    const auto arrived = [&](const waypoint<T>& at, arrival how) {
+      trip.end = at;
+      trip.how = how;
+      return trip;
+    };
+    waypoint<T> where;
     const auto slid = [&](const waypoint<T>& to, const T& distance) {
-      waypoint<T> where;
-      if (!slides<N>(along_path, from, to, distance, where) || sign * (where.reach - target) >= T(0)) {
-        return false;
-      }
-      trip.end = where;
-      trip.how = arrival::at_slide;
-      return true;
+      return slides<N>(along_path, from, to, distance, where) && sign * (where.reach - target) < T(0);
     };
     if (!folded && slid(next, h)) {
-      return trip;
+      return arrived(where, arrival::at_slide);
     }
     if (!passed && !folded) {
       if (closed(along_path.pair(), next.u)) {
-        trip.end = next;
-        trip.how = arrival::at_limit;
-        return trip;
+        return arrived(next, arrival::at_limit);
       }
       from = next;
       h = smaller(h * (iterations <= 2 ? T(1.6) : T(1)), T(0.8));
@@ -354,21 +320,16 @@ template <int N, bool Equal, std::floating_point T>
       }
       if (lost) {
         h *= T(0.4);
-        if (h < T(1e-7)) {
-          return trip;
-        }
         continue;
       }
       // the secants may close in on the fold from either side alone: what is near it is the higher of the two
       const bool beyond = sign * (at_high.reach - at_low.reach) > T(0);
       const waypoint<T>& top = beyond ? at_high : at_low;
       if (slid(top, beyond ? high : low)) {
-        return trip;
+        return arrived(where, arrival::at_slide);
       }
       if (sign * (top.reach - target) < T(0)) {
-        trip.end = top;
-        trip.how = arrival::at_fold;
-        return trip;
+        return arrived(top, arrival::at_fold);
       }
       if (sign * (at_low.reach - target) >= T(0)) {
         high = low;
@@ -406,14 +367,9 @@ template <int N, bool Equal, std::floating_point T>
     }
     if (lost) {
       h *= T(0.4);
-      if (h < T(1e-7)) {
-        return trip;
-      }
       continue;
     }
-    trip.end = mid;
-    trip.how = arrival::at_target;
-    return trip;
+    return arrived(mid, arrival::at_target);
   }
   trip.end = from;
   return trip;
@@ -471,16 +427,13 @@ template <int N, bool Equal, std::floating_point T>
   using std::atan2;
   using std::cos;
   using std::sin;
-  constexpr int stages = 8;
-  constexpr T least = T(0.2);
-  journey<T> trip;
-  trip.how = arrival::lost;
+  journey<T> trip{{}, arrival::lost};
   surface_pair<T> on = pair;
   const auto wet = [&](const T& share) {
     for (std::size_t i = 0; i < 2; ++i) {
       const T theta = atan2(pair.side[i].sine, pair.side[i].cosine);
-      if (theta < least) {
-        const T now = theta + (T(1) - share) * least;
+      if (theta < T(0.2)) {
+        const T now = theta + (T(1) - share) * T(0.2);
         on.side[i].cosine = cos(now);
         on.side[i].sine = sin(now);
       }
@@ -506,8 +459,8 @@ template <int N, bool Equal, std::floating_point T>
     }
     at.gap = T(0.5) * (at.gap + end.end.reach);
     u = follow<N>(opening, start, at.gap, 1).end.u;
-    for (int i = 0; i <= stages; ++i) {
-      wet(T(i) / T(stages));
+    for (int i = 0; i <= 8; ++i) {
+      wet(T(0.125) * T(i));
       if (!solve()) {
         return trip;
       }
@@ -523,19 +476,64 @@ template <int N, bool Equal, std::floating_point T>
   return trip;
 }
 
+/// Whether the gap is too wide for any bridge, from bounds that cost no march.
+///
+/// Of a suction, k > 0: the profile is convex, its curvature is 2k + cos φ / r, and r ≤ ρ, the radius of the circle, so
+/// that a side reaches no farther from the neck, real or virtual, than 1 / (2k / cos θ + 1 / ρ (90° − θ)) (Jensen's
+/// inequality), of which the cap takes ρ²/2R at least; the tangent at any ρ bounds the greatest difference.
+/// Of a volume: the widest gap of all pairs over the cube root of the volume is below 1.76, for little liquid below
+/// 1 + 0.47 θ and 1.47, and 0.22 v more, with v³ = V × (mean curvature of the surfaces)³ and the larger angle; the
+/// bounds here are 3.5 % and more above what was found on 10⁵ random pairs.
+template <std::floating_point T>
+[[nodiscard]] inline bool out_of_reach(const surface_pair<T>& pair, const demand<T>& d) noexcept {
+  using std::acos;
+  using std::cbrt;
+  const bool by_volume = d.by == bridge_control::volume;
+  const T cube = d.gap * d.gap * d.gap;
+  const T a = T(2) * d.value;
+  const T wetting = pair.side[0].cosine + pair.side[1].cosine;
+  if (!(d.gap > T(0)) || !(by_volume ? cube > d.value : a * d.gap > T(0.3) * wetting)) {
+    return false;  // near enough to be worth a try
+  }
+  if (by_volume) {
+    const T v = T(0.5) * cbrt(d.value) * (pair.side[0].curvature + pair.side[1].curvature);
+    const T angle = acos(smaller(pair.side[0].cosine, pair.side[1].cosine));
+    const T widest = v < T(0.75) ? smaller(T(1.04) + T(0.47) * angle, T(1.53)) + T(0.22) * v : T(1.85);
+    return cube > d.value * widest * widest * widest;
+  }
+  T reach = wetting / a * T(1e-9);
+  for (const wetted_surface<T>& on : pair.side) {
+    const T s = on.cosine;
+    const T turn = acos(on.sine);
+    T side = s / a;
+    if (on.curvature > T(0)) {
+      T rho = smaller(cbrt(s * s / (on.curvature * a * a * turn)), turn / on.curvature);
+      for (int i = 0; i < 2; ++i) {  // to where the difference is greatest, from above
+        const T sum = a * rho * turn + s;
+        const T miss = on.curvature * rho * sum * sum - turn * s * s;
+        rho -= miss / (on.curvature * sum * (sum + T(2) * a * rho * turn));
+      }
+      const T sum = a * rho * turn + s;
+      const T slope = turn * (s / sum) * (s / sum);
+      side = smaller(side, rho * turn * s / sum - slope * rho + slope * slope / (T(2) * on.curvature));
+    }
+    reach += side;
+  }
+  return d.gap > reach;
+}
+
 /// A bridge from nothing: at contact from little liquid (or a high suction) to the value asked, then along the gap.
 template <int N, bool Equal, std::floating_point T>
 [[nodiscard]] inline journey<T> travel(const surface_pair<T>& pair, const demand<T>& d, const T& gap_limit) noexcept {
-  journey<T> trip;
-  trip.how = arrival::lost;
+  journey<T> trip{{}, arrival::lost};
   demand<T> at_contact{T(0), d.value, d.by};
   const T curvature = pair.side[0].curvature + pair.side[1].curvature;
   const T wetting = pair.side[0].cosine + pair.side[1].cosine;
-  const auto easy = [&](const T& circle) {
-    return d.by == bridge_control::volume ? pi<T> * circle * circle * circle * circle * curvature / T(4)
-                                          : wetting / (curvature * circle * circle);
-  };
   const bool by_volume = d.by == bridge_control::volume;
+  const auto easy = [&](const T& circle) {
+    const T square = circle * circle;
+    return by_volume ? pi<T> * square * square * curvature / T(4) : wetting / (curvature * square);
+  };
   T circle = T(0.5) * wetting / curvature;
   found<T> f;
   f.converged = false;
@@ -554,11 +552,11 @@ template <int N, bool Equal, std::floating_point T>
   // along the gap first where the surfaces overlap: more suctions have a bridge there than at contact
   profile<T> u = f.u;
   const bool overlap = gap_limit < T(0);
-  const auto move_gap = [&](journey<T>& to) {
+  const auto move_gap = [&] {
     const path<Equal, T> opening(pair, at_contact, along::gap);
     const int sense = overlap ? -1 : 1;
-    to = follow<N>(opening, opening.template begin<N>(u, sense), gap_limit, sense);
-    return to.how == arrival::at_target;
+    trip = follow<N>(opening, opening.template begin<N>(u, sense), gap_limit, sense);
+    return trip.how == arrival::at_target;
   };
   const auto settle = [&](const profile<T>& near) {
     f = newton<N, Equal>(pair, at_contact, near, 12);
@@ -566,7 +564,7 @@ template <int N, bool Equal, std::floating_point T>
     return f.converged;
   };
   if (overlap && at_contact.value != d.value) {
-    if (!move_gap(trip)) {
+    if (!move_gap()) {
       return trip;
     }
     at_contact.gap = gap_limit;
@@ -591,12 +589,11 @@ template <int N, bool Equal, std::floating_point T>
       return trip;
     }
   }
-  if (at_contact.gap == gap_limit) {
-    trip.end.u = u;
-    trip.how = arrival::at_target;
-    return trip;
+  trip.end.u = u;
+  trip.how = arrival::at_target;
+  if (at_contact.gap != gap_limit) {
+    static_cast<void>(move_gap());
   }
-  static_cast<void>(move_gap(trip));
   return trip;
 }
 

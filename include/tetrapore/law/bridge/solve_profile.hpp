@@ -210,18 +210,15 @@ template <bool Equal, std::floating_point T>
   return index;
 }
 
-/// The equations at a sample as a linear system whose right-hand sides are the step to the solution and the changes by
-/// gap and by value.
-template <bool Equal, std::floating_point T>
-[[nodiscard]] inline bool linearise(const sample<T>& s, const profile<T>& u, const demand<T>& d, T (&step)[4],
-                                    T (&by_gap)[4], T (&by_value)[4]) noexcept {
+/// The equations at a sample, linear in the step to the solution, in the first columns of a matrix.
+template <bool Equal, int Columns, std::floating_point T>
+inline void equations(const sample<T>& s, const profile<T>& u, const demand<T>& d,
+                      matrix<T, unknowns<Equal>, Columns>& a) noexcept {
   constexpr int n = unknowns<Equal>;
-  matrix<T, n, n + 3> a;
   for (int row = 0; row < n; ++row) {
     for (int column = 0; column < n; ++column) {
       a[row][column] = s.by[row][column];
     }
-    a[row][n + 1] = a[row][n + 2] = T(0);
   }
   const T inverse = T(1) / s.scale;
   a[match_row][n] = -s.match[0];
@@ -237,6 +234,18 @@ template <bool Equal, std::floating_point T>
   }
   if constexpr (!Equal) {
     a[second_match_row][n] = -s.match[1];
+  }
+}
+
+/// The step to the solution, and the changes by gap and by value.
+template <bool Equal, std::floating_point T>
+[[nodiscard]] inline bool linearise(const sample<T>& s, const profile<T>& u, const demand<T>& d, T (&step)[4],
+                                    T (&by_gap)[4], T (&by_value)[4]) noexcept {
+  constexpr int n = unknowns<Equal>;
+  matrix<T, n, n + 3> a;
+  equations<Equal, n + 3>(s, u, d, a);
+  for (int row = 0; row < n; ++row) {
+    a[row][n + 1] = a[row][n + 2] = T(0);
   }
   a[gap_row][n + 1] = T(1);
   a[volume_row][n + 2] = T(1);
