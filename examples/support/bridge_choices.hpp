@@ -135,16 +135,6 @@ namespace detail {
 
 }  // namespace detail
 
-/// Radius of the contact line on the second surface.
-template <class Meniscus>
-[[nodiscard]] double second_contact_radius(const tp::edge<double>& e, const Meniscus& m) {
-  if constexpr (requires { m.contact2; }) {
-    return m.contact2;
-  } else {
-    return e.with_plane() ? m.filling2 : e.radius2 * std::sin(m.filling2);
-  }
-}
-
 /// Asks a law for a bridge; grains that overlap pull as grains that touch.
 template <class Law, class Given>
 [[nodiscard]] bridge_answer bridge_of(const Law& law, const tp::edge<double>& e, const Given& given) {
@@ -155,8 +145,8 @@ template <class Law, class Given>
   if constexpr (requires { m.filling1; }) {
     a.volume = m.volume;
     a.suction = m.suction;
-    a.contact1 = e.radius1 * std::sin(m.filling1);
-    a.contact2 = second_contact_radius(e, m);
+    a.contact1 = m.contact1;
+    a.contact2 = m.contact2;
   }
   return a;
 }

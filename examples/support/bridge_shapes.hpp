@@ -103,8 +103,8 @@ template <class Law, class Given>
                                  std::size_t count = outline_points) {
   const auto m = law.bridge(e, given).value;
   if constexpr (requires { m.filling1; }) {
-    const contact_point from = first_contact(e, e.radius1 * std::sin(m.filling1), m.filling1, law.contact_angle1);
-    const contact_point to = second_contact(e, second_contact_radius(e, m), m.filling2, law.contact_angle2);
+    const contact_point from = first_contact(e, m.contact1, m.filling1, law.contact_angle1);
+    const contact_point to = second_contact(e, m.contact2, m.filling2, law.contact_angle2);
     if constexpr (requires { m.arc; }) {
       return circle(from, to, m.arc, count);
     } else {

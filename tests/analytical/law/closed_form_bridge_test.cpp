@@ -165,17 +165,19 @@ TEST_CASE("the toroid meets both surfaces at their angles and holds its volume")
     const double x = -1 + std::cos(r.filling1) + r.arc * std::cos(normal);
     const double y = std::sin(r.filling1) + r.arc * std::sin(normal);
     CHECK(y == doctest::Approx(r.neck + r.arc).epsilon(1e-12));
+    CHECK(r.contact1 == doctest::Approx(std::sin(r.filling1)).epsilon(1e-14));
     // and from the second surface
     if (e.with_plane()) {
+      CHECK(r.filling2 == 0);
       CHECK(std::abs(s.gap - x - r.arc * std::cos(angle2)) < 1e-12);
-      CHECK(y == doctest::Approx(r.filling2 + r.arc * std::sin(angle2)).epsilon(1e-12));
+      CHECK(y == doctest::Approx(r.contact2 + r.arc * std::sin(angle2)).epsilon(1e-12));
     } else {
       const double reach = std::hypot(s.gap + s.radius2 - x, y);
       CHECK(reach * reach ==
             doctest::Approx(s.radius2 * s.radius2 + r.arc * r.arc + 2 * s.radius2 * r.arc * std::cos(angle2))
                 .epsilon(1e-12));
-      CHECK(std::sin(r.filling2) * s.radius2 ==
-            doctest::Approx(y - r.arc * std::sin(r.filling2 + angle2)).epsilon(1e-9));
+      CHECK(r.contact2 == doctest::Approx(std::sin(r.filling2) * s.radius2).epsilon(1e-14));
+      CHECK(r.contact2 == doctest::Approx(y - r.arc * std::sin(r.filling2 + angle2)).epsilon(1e-9));
     }
     CHECK(volume_by_slices(e, r, x) == doctest::Approx(s.volume).epsilon(1e-5));
     // the same ring by its suction

@@ -44,14 +44,21 @@ template <real T>
   return value_of(x) > 0 && value_of(x) < infinity<T>;
 }
 
+/// A plane on either side: the laws of bridges take a pair from both of its ends.
+template <real T>
+[[nodiscard]] bool before_plane(const edge<T>& e) noexcept {
+  return !(value_of(e.radius1) < infinity<T>) || !(value_of(e.radius2) < infinity<T>);
+}
+
 /// What every law of a pair asks of its input: ok or invalid_input.
 template <real T>
 [[nodiscard]] bridge_status admit_pair(const edge<T>& e, double surface_tension, double angle1,
                                        double angle2) noexcept {
   const bool angles = angle1 >= 0 && angle1 < pi<double> / 2 && angle2 >= 0 && angle2 < pi<double> / 2;
   const T& smaller = e.radius1 < e.radius2 ? e.radius1 : e.radius2;
-  const bool good = angles && finite_and_positive(surface_tension) && finite_and_positive(e.radius1) &&
-                    value_of(e.radius2) > 0 && value_of(e.gap) > -value_of(smaller) && value_of(e.gap) < infinity<T>;
+  const bool good = angles && finite_and_positive(surface_tension) && finite_and_positive(smaller) &&
+                    value_of(e.radius1) > 0 && value_of(e.radius2) > 0 && value_of(e.gap) > -value_of(smaller) &&
+                    value_of(e.gap) < infinity<T>;
   return good ? bridge_status::ok : bridge_status::invalid_input;
 }
 
@@ -75,11 +82,11 @@ template <class Law, real T>
 /// The largest contact angle of the fits, 50°, however it was rounded.
 inline constexpr double largest_fitted_angle = 50 * pi<double> / 180 * (1 + 1e-12);
 
-/// Radius of the equal spheres whose gap opens as that of the pair does at its narrowest: 2 R₁ R₂ / (R₁ + R₂); 2 R₁
-/// before a plane. \par Source  Derjaguin 1934, Kolloid-Z. 69, 155
+/// Radius of the equal spheres whose gap opens as that of the pair does at its narrowest: 2 R₁ R₂ / (R₁ + R₂); twice
+/// that of the sphere before a plane. \par Source  Derjaguin 1934, Kolloid-Z. 69, 155
 template <real T>
 [[nodiscard]] T derjaguin_radius(const edge<T>& e) noexcept {
-  return T(2) * e.radius1 / (T(1) + e.radius1 / e.radius2);
+  return value_of(e.radius1) < infinity<T> ? T(2) * e.radius1 / (T(1) + e.radius1 / e.radius2) : T(2) * e.radius2;
 }
 
 /// Radii that differ by less than what a fit can tell, 1 in 10⁶.
@@ -88,7 +95,7 @@ template <real T>
   const auto a = value_of(e.radius1);
   const auto b = value_of(e.radius2);
   const auto difference = a > b ? a - b : b - a;
-  return difference <= a * static_cast<underlying_t<T>>(1e-6);
+  return difference <= (a < b ? a : b) * static_cast<underlying_t<T>>(1e-6);
 }
 
 /// A range in which a fit holds, ends included however they were rounded.

@@ -63,7 +63,7 @@ struct mikami_rupture {
   template <real T>
   [[nodiscard]] underlying_t<T> gap(const edge<T>& e, const T& volume, double contact_angle) const noexcept {
     using number = underlying_t<T>;
-    const number radius = value_of(e.radius1);
+    const number radius = value_of(detail::derjaguin_radius(e));
     const number reduced = value_of(volume) / (radius * radius * radius);
     return static_cast<number>(0.99 + 0.62 * contact_angle) * std::pow(reduced, static_cast<number>(0.34)) * radius;
   }

@@ -30,7 +30,7 @@ struct soulie {
     using std::sqrt;
     const T radius = e.radius1 < e.radius2 ? e.radius2 : e.radius1;
     const T reduced = liquid.value / (radius * radius * radius);
-    const bool outside = e.with_plane() || contact_angle > detail::largest_fitted_angle ||
+    const bool outside = detail::before_plane(e) || contact_angle > detail::largest_fitted_angle ||
                          !detail::within(reduced, 1e-4, 0.1) || !detail::within(e.radius1 / e.radius2, 0.5, 2);
     const bridge_status found = detail::admit_fit(*this, e, liquid.value, outside);
     if (found != bridge_status::ok) {

@@ -145,7 +145,8 @@ struct toroid_ring {
   T suction;             ///< [Pa]
   T neck;                ///< radius of the gorge
   T arc;                 ///< radius of the meridian circle
-  T filling1, filling2;  ///< half filling angles; on a plane the radius of the contact line
+  T filling1, filling2;  ///< angles at the grains' centres between the axis and the contact circles; 0 on a plane
+  T contact1, contact2;  ///< radii of the contact circles
 };
 
 /// The bridge whose meridian is a circle that meets both surfaces at their contact angles: suction σ (1/ρ − 1/y), ρ the
@@ -186,6 +187,9 @@ struct toroid {
     if (e.gap < T(0)) {
       return none<T>(bridge_status::not_covered);
     }
+    if (!(value_of(e.radius1) < infinity<T>)) {
+      return from_the_other_end(e, liquid);
+    }
     if (value_of(e.gap) > rupture.gap(e, liquid.value, (contact_angle1 + contact_angle2) / 2)) {
       return none<T>(bridge_status::ruptured);
     }
@@ -204,6 +208,9 @@ struct toroid {
     }
     if (e.gap < T(0)) {
       return none<T>(bridge_status::not_covered);
+    }
+    if (!(value_of(e.radius1) < infinity<T>)) {
+      return from_the_other_end(e, tied);
     }
     const shape<T> s = shape_of(e);
     const T per_tension = tied.value / detail::fit_number<T>(surface_tension);
@@ -236,8 +243,20 @@ struct toroid {
   [[nodiscard]] static outcome<toroid_ring<T>, bridge_status> none(bridge_status why) noexcept {
     const T force = detail::no_pull<T>(why).value.force;
     const T unknown(quiet_nan<T>);
-    return {{force, verdict_of(why) == verdict::absent ? T(0) : unknown, unknown, unknown, unknown, unknown, unknown},
+    return {{force, verdict_of(why) == verdict::absent ? T(0) : unknown, unknown, unknown, unknown, unknown, unknown,
+             unknown, unknown},
             why};
+  }
+
+  /// A plane that comes first.
+  template <real T, class Given>
+  [[nodiscard]] outcome<toroid_ring<T>, bridge_status> from_the_other_end(const edge<T>& e,
+                                                                          const Given& given) const noexcept {
+    const toroid turned{surface_tension, contact_angle2, contact_angle1, rupture};
+    const auto found = turned.bridge(edge<T>{e.radius2, e.radius1, e.gap, -e.normal}, given);
+    const toroid_ring<T>& r = found.value;
+    return {{r.force, r.volume, r.suction, r.neck, r.arc, r.filling2, r.filling1, r.contact2, r.contact1},
+            found.reason};
   }
 
   template <real T>
@@ -340,7 +359,8 @@ struct toroid {
     const T tension = detail::fit_number<T>(surface_tension);
     return {{T(pi<T>) * tension * c.neck * (T(1) + c.neck / c.arc), volume_of(e, s, c),
              tension * (T(1) / c.arc - T(1) / c.neck), c.neck, c.arc, atan2(first.sine, first.cosine),
-             e.with_plane() ? c.height - c.arc * s.sin2 : atan2(second.sine, second.cosine)},
+             e.with_plane() ? T(0) : atan2(second.sine, second.cosine), e.radius1 * first.sine,
+             e.with_plane() ? c.height - c.arc * s.sin2 : e.radius2 * second.sine},
             found};
   }
 };

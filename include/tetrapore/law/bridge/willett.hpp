@@ -30,7 +30,7 @@ struct willett {
     const T radius = detail::derjaguin_radius(e);
     const T reduced = liquid.value / (radius * radius * radius);
     const bool outside =
-        e.with_plane() || contact_angle > detail::largest_fitted_angle || !detail::within(reduced, 1e-3, 0.1);
+        detail::before_plane(e) || contact_angle > detail::largest_fitted_angle || !detail::within(reduced, 1e-3, 0.1);
     const bridge_status found = detail::admit_fit(*this, e, liquid.value, outside);
     if (found != bridge_status::ok) {
       return detail::no_pull<T>(found);
@@ -83,7 +83,7 @@ struct willett_small {
     const T radius = detail::derjaguin_radius(e);
     const T reduced = liquid.value / (radius * radius * radius);
     const bool outside =
-        e.with_plane() || contact_angle > detail::largest_fitted_angle || !detail::within(reduced, 0, 0.1);
+        detail::before_plane(e) || contact_angle > detail::largest_fitted_angle || !detail::within(reduced, 0, 0.1);
     const bridge_status found = detail::admit_fit(*this, e, liquid.value, outside);
     if (found != bridge_status::ok) {
       return detail::no_pull<T>(found);
