@@ -54,6 +54,7 @@ void run(const pendular_job& job) {
     all.states.push_back(support::sum_up(scene, found.of_pair, step));
     all.last = std::move(found.of_pair);
   }
+  all.seconds_last = support::seconds_of_bridges(scene, law, job.held, job.steps.back(), all.last);
   warn_of_touching(all, scene);
   spent.states = watch.lap();
 

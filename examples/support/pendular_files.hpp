@@ -41,7 +41,8 @@ struct pendular_results {
   std::vector<pendular_state> states;
   std::vector<bridge_answer> last;
   double seconds_laws = 0;
-  std::size_t asked = 0;  ///< times that the law was
+  std::size_t asked = 0;    ///< times that the law was, also of pairs that turned out to have no bridge
+  double seconds_last = 0;  ///< for the bridges of the last step alone
 
   /// The wettest state in which no two bridges touch; null where they do in all.
   [[nodiscard]] const pendular_state* pendular_limit() const {
@@ -280,9 +281,10 @@ inline void print_pendular(const pendular_scene& scene, const pendular_results& 
   say("seconds_pairs", spent.pairs);
   say("seconds_tables", spent.tables);
   say("seconds_laws", all.seconds_laws);
-  say("seconds_states", spent.states - all.seconds_laws);
+  say("seconds_states", spent.states - all.seconds_laws - all.seconds_last);
   say("seconds_write", spent.write);
-  say("ns_per_bridge", all.asked > 0 ? 1e9 * all.seconds_laws / static_cast<double>(all.asked) : nan);
+  say("ns_per_pair", all.asked > 0 ? 1e9 * all.seconds_laws / static_cast<double>(all.asked) : nan);
+  say("ns_per_bridge", last.formed() > 0 ? 1e9 * all.seconds_last / static_cast<double>(last.formed()) : nan);
   say("peak_rss_mb", peak_rss_mb());
 }
 
