@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <map>
 #include <memory>
+#include <string>
 
 /// \file
 /// Primary drainage with and without the question whether the rings exist.
@@ -59,6 +60,15 @@ figures drained(const network& net, const Law& law) {
   f.half = curve.pressure_at(0.5).value_or(std::nan(""));
   f.residual = curve.end_saturation();
   return f;
+}
+
+/// A row of docs/campaigns/ringed_drainage.json. A curve that starts below S = 0.5, for the gaps of its facets let gas
+/// in at no suction at all, has no p_c there: null.
+/// \param radius  the unit of length for p_c
+inline std::string json_row(const char* name, const figures& f, double radius) {
+  const std::string half = f.half > 0 ? std::to_string(f.half * radius) : "null";
+  return std::string("  \"") + name + "\": {\"gap_limited\": " + std::to_string(f.limited) + ", \"pc_s50\": " + half +
+         ", \"residual\": " + std::to_string(f.residual) + "}";
 }
 
 }  // namespace ringed_curves

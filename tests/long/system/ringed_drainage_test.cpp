@@ -41,10 +41,7 @@ TEST_CASE("rings that have to exist, and the retention curve of 10,000 beads") {
   CHECK(lost_rings.limited > lost.limited);
   CHECK(lost_rings.half < lost.half);
   CHECK(merged_rings.half < merged.half);
-  const auto row = [&](const char* name, const figures& f) {
-    return std::string("  \"") + name + "\": {\"gap_limited\": " + std::to_string(f.limited) +
-           ", \"pc_s50\": " + std::to_string(f.half * radius) + ", \"residual\": " + std::to_string(f.residual) + "}";
-  };
+  const auto row = [&](const char* name, const figures& f) { return json_row(name, f, radius); };
   const auto part = path.string() + ".part";
   std::ofstream(part) << "{\n  \"command\": \"tests/run.sh --long long_system\",\n  \"packing\": \"open_10000\",\n"
                       << "  \"throats\": " << net.throat_count() << ",\n"

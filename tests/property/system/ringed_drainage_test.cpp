@@ -33,3 +33,12 @@ TEST_CASE("rings that have to exist let gas in sooner: thresholds of facets neve
   MESSAGE(net.throat_count() << " throats; gap-limited " << without.limited << ", with rings " << with.limited
                              << "; p_c at S = 0.5 " << without.half << ", with rings " << with.half);
 }
+
+TEST_CASE("a curve that never passes S = 0.5 at a suction above 0 has no p_c there, and the campaign says null") {
+  CHECK(json_row("a", {7, 2.0, 0.25}, 0.5) ==
+        "  \"a\": {\"gap_limited\": 7, \"pc_s50\": 1.000000, \"residual\": 0.250000}");
+  for (const double none : {0.0, std::nan("")}) {
+    CHECK(json_row("b", {7, none, 0.25}, 0.5) ==
+          "  \"b\": {\"gap_limited\": 7, \"pc_s50\": null, \"residual\": 0.250000}");
+  }
+}
