@@ -24,11 +24,12 @@ struct material {
 
 }  // namespace
 
-// At 30° the bridges of little liquid end at a fold and those of much liquid lopsided, right before it.
+// At 30° the bridges of little liquid end at a fold and those of much liquid lopsided, right before it; those of a pair
+// that is not quite equal always at a fold, but right before it they bend as if they were to go lopsided.
 TEST_CASE("a table of exact bridges is built to 1e-6 of the largest force, and keeps its error between its nodes") {
-  for (const material& m :
-       {material{1, 0, 0, 0}, material{1, 0, 0, 0.01}, material{1, 30, 30, 0}, material{1, 45, 45, 0},
-        material{0.5, 0, 0, 0}, material{infinity<double>, 10, 10, 0}, material{1, 20, 50, 0}}) {
+  for (const material& m : {material{1, 0, 0, 0}, material{1, 0, 0, 0.01}, material{1, 30, 30, 0},
+                            material{1, 45, 45, 0}, material{0.99, 30, 30, 0}, material{0.999, 40, 40, 0},
+                            material{0.5, 0, 0, 0}, material{infinity<double>, 10, 10, 0}, material{1, 20, 50, 0}}) {
     CAPTURE(m.radius2);
     CAPTURE(m.angle1);
     CAPTURE(m.angle2);
@@ -48,7 +49,7 @@ TEST_CASE("a table of exact bridges is built to 1e-6 of the largest force, and k
     const double largest =
         exact.bridge(edge<double>{1, m.radius2, -m.overlap, {}}, given_volume<double>{4e-4}).value.force;
     double worst = 0;
-    for (int i = 0; i < 2000; ++i) {
+    for (int i = 0; i < 1000; ++i) {
       const given_volume<double> liquid{4e-4 * std::pow(250, 0.999999 * uniform(random))};
       edge<double> e{1, m.radius2, 0, {0, 0, 1}};
       const auto limit = exact.rupture_gap(e, liquid);
@@ -67,7 +68,7 @@ TEST_CASE("a table of exact bridges is built to 1e-6 of the largest force, and k
       CHECK(beyond.value.force == 0);
     }
     CHECK(worst < 1.3 * report.error);
-    MESSAGE("stated " << report.error << ", worst of 2,000 " << worst);
+    MESSAGE("stated " << report.error << ", worst of 1,000 " << worst);
   }
 }
 
@@ -180,7 +181,7 @@ TEST_CASE("asked in long double a table agrees with the exact law in long double
       std::mt19937_64 random(4);
       std::uniform_real_distribution<double> uniform(0, 1);
       long double worst = 0;
-      for (int i = 0; i < 150; ++i) {
+      for (int i = 0; i < 80; ++i) {
         const given_volume<long double> liquid{4e-4L * std::pow(250.0L, 0.999999L * uniform(random))};
         edge<long double> e{1, other, 0, {0, 0, 1}};
         e.gap = exact.rupture_gap(e, liquid).value.gap * (1 - static_cast<long double>(uniform(random)));

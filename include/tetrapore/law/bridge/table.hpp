@@ -209,16 +209,17 @@ struct table_report {
 /// in each a polynomial of degree 3 in the volume and 4 in y, continuous from cell to cell. Where the liquid of equal
 /// spheres slides to one side before the bridge folds, D_f is the gap at which it would, so that the force stays smooth
 /// in y, and the y of the last bridge is a curve of its own: it starts from 0 at the volume from which on the liquid
-/// slides. The bits of the volume are the cell and the place in it, so that a look-up takes one square root and no
-/// logarithm. Overlaps have cells of their own.
+/// slides. Where the pair is not quite equal, the force bends sharply right before the fold: the last cell is halved
+/// again and again. The bits of the volume are the cell and the place in it, so that a look-up takes one square root and
+/// no logarithm. Overlaps have cells of their own.
 /// \par Units   inside: lengths in R₁, forces over R₁ [N/m]
 /// \par Source  the variables are this project's; after a table in (ln V, √(1 − ξ)), ξ a ratio of logarithms of the gap
-template <int Octaves = 20, int GapCells = 20>
+template <int Octaves = 20, int GapCells = 16>
   requires(0 < Octaves && Octaves <= 63 && 1 < GapCells)
 class bridge_table {
  public:
   /// Error of the force in the largest force of a table of the exact law, around every pair and volume of
-  /// open_bridge.csv; what a table has of its own is in its report. With 20 cells or more.
+  /// open_bridge.csv; what a table has of its own is in its report. With 16 cells or more.
   static constexpr double stated_accuracy = 1e-6;
 
   /// Fills the table by the law, whose angles and surface tension are those of the pair, and measures it between its
@@ -288,19 +289,30 @@ class bridge_table {
       return detail::no_pull<double>(gap > -1 && gap > -ratio_ ? bridge_status::not_covered
                                                                : bridge_status::invalid_input);
     }
-    const int last = gap >= 0 ? GapCells - 1 : GapCells + OverlapCells - 1;
-    const int k = static_cast<int>(z) < last ? static_cast<int>(z) : last;
-    return {{radius * cells.force[static_cast<std::size_t>(k)].at(at.t, 2 * (z - k) - 1)}, bridge_status::ok};
+    int k;
+    double x;  // in the cell, from −1 to 1
+    if (z >= 1) {
+      const int last = gap >= 0 ? GapCells - 1 : GapCells + OverlapCells - 1;
+      k = static_cast<int>(z) < last ? static_cast<int>(z) : last;
+      x = 2 * (z - k) - 1;
+      k += Halvings;
+    } else {
+      const cell in = cell_at(z);
+      k = in.index;
+      x = 2 * (z - in.from) / in.width - 1;
+    }
+    return {{radius * cells.force[static_cast<std::size_t>(k)].at(at.t, x)}, bridge_status::ok};
   }
 
  private:
   static constexpr int per_octave = 8;
   static constexpr int row_count = Octaves * per_octave;
   static constexpr int OverlapCells = 8;
+  static constexpr int Halvings = 4;  ///< of the last gap cell, towards rupture
   static constexpr std::size_t volume_nodes = 4;
   static constexpr std::size_t gap_nodes = 5;
   static constexpr std::size_t limit_nodes = 7;
-  static constexpr std::size_t cell_count = static_cast<std::size_t>(GapCells + OverlapCells);
+  static constexpr std::size_t cell_count = static_cast<std::size_t>(Halvings + GapCells + OverlapCells);
   static constexpr std::size_t column_length = (gap_nodes - 1) * cell_count + 1;
 
   /// A polynomial in the place in the volume cell and the place in the gap cell, both from −1 to 1.
@@ -330,6 +342,7 @@ class bridge_table {
     std::array<patch, cell_count> force;
 
     [[nodiscard]] bool slides(double t) const noexcept { return direction * t > turn; }
+    [[nodiscard]] bool slides_at_all() const noexcept { return turn < 1; }
     [[nodiscard]] double last_y(double t) const noexcept { return slides(t) ? detail::polynomial(last, t) : 0; }
     [[nodiscard]] bridge_status beyond(double t) const noexcept {
       return slides(t) ? bridge_status::lopsided : beyond_fold;
@@ -408,9 +421,23 @@ class bridge_table {
     const double u = (z - GapCells) / OverlapCells;
     return -u * into * s * depth_ / (into * s + depth_ * (1 - u));
   }
-  /// A place in the cell of the last bridge, of −1 to 1 over the part of it that has bridges.
-  [[nodiscard]] static double in_first_cell(const row& r, double t, double x) noexcept {
-    return 1 + (x - 1) * (1 - r.lowest(t));
+  /// A cell along the gap: the last of equal width is halved again and again.
+  struct cell {
+    int index;
+    double from;
+    double width;
+
+    [[nodiscard]] double at(double x) const noexcept { return from + width * (x + 1) / 2; }
+  };
+  [[nodiscard]] static cell cell_of_index(int c) noexcept {
+    return c == 0          ? cell{0, 0, 1.0 / (1 << Halvings)}
+           : c <= Halvings ? cell{c, 1.0 / (2 << (Halvings - c)), 1.0 / (2 << (Halvings - c))}
+                           : cell{c, static_cast<double>(c - Halvings), 1};
+  }
+  /// The cell of a place below 1.
+  [[nodiscard]] static cell cell_at(double z) noexcept {
+    const int halved = z > 0 ? 1022 - static_cast<int>(std::bit_cast<std::uint64_t>(z) >> 52) : Halvings;
+    return cell_of_index(halved < Halvings ? Halvings - halved : 0);
   }
 
   /// Where the bridges of a volume end.
@@ -537,16 +564,60 @@ class bridge_table {
     return bridge_status::ok;
   }
 
+  using column = std::array<double, column_length>;
+
+  /// The forces of a volume, over R₁, at the places of all cells from the last bridge to the deepest overlap.
+  template <tabulable Law>
+  [[nodiscard]] bridge_status fill_column(const Law& law, int k, double t, column& force,
+                                          std::uint32_t& solved) const noexcept {
+    const row& here = row_[static_cast<std::size_t>(k)];
+    detail::column_solver<Law> solver{law};
+    bridge_status reason = bridge_status::ok;
+    const auto solve = [&](double z) {
+      const auto answer = solver(pair_at(gap_of(here, t, z)), liquid_at(k, t));
+      reason = reason == bridge_status::ok ? answer.reason : reason;
+      ++solved;
+      return answer.value.force / radius1_;
+    };
+    const int halved = here.slides_at_all() ? Halvings : -1;
+    for (int c = cells() - 1; c >= 0; --c) {  // from the deepest overlap on
+      const auto places = c == 0 ? detail::upper_end_and_between<gap_nodes>() : detail::ends_and_between<gap_nodes>();
+      double* const at = &force[static_cast<std::size_t>(c) * (gap_nodes - 1)];
+      for (std::size_t j = gap_nodes; c > halved && j-- > (c == 0 ? 0U : 1U);) {
+        at[j] = solve(cell_of_index(c).at(places[j]));
+      }
+    }
+    if (here.slides_at_all()) {  // the force goes on smoothly, so that one polynomial serves for the halves
+      auto places = detail::upper_end_and_between<gap_nodes>();
+      const double lowest = here.lowest(t);
+      std::array<double, gap_nodes> values;
+      for (std::size_t j = gap_nodes; j-- > 0;) {
+        values[j] = solve(1 + (places[j] - 1) / 2 * (1 - lowest));
+      }
+      const auto powers = detail::product(detail::coefficients_of(places), values);
+      for (int c = Halvings; c >= 0; --c) {
+        const auto within = c == 0 ? places : detail::ends_and_between<gap_nodes>();
+        for (std::size_t j = gap_nodes; j-- > (c == 0 ? 0U : 1U);) {
+          const double x = 1 + 2 * (cell_of_index(c).at(within[j]) - 1) / (1 - lowest);
+          double sum = 0;
+          for (std::size_t i = gap_nodes; i-- > 0;) {
+            sum = sum * x + powers[i];
+          }
+          force[static_cast<std::size_t>(c) * (gap_nodes - 1) + j] = sum;
+        }
+      }
+    }
+    return reason;
+  }
+
   template <tabulable Law>
   [[nodiscard]] table_report fill(const Law& law, int rows) noexcept {
     table_report report{bridge_status::ok, 0, 0, 0, 0, 0, 0};
     const auto volume_places = detail::ends_and_between<volume_nodes>();
-    const auto gap_places = detail::ends_and_between<gap_nodes>();
-    const auto first_places = detail::upper_end_and_between<gap_nodes>();
     const auto volume_fit = detail::coefficients_of(volume_places);
-    const auto gap_fit = detail::coefficients_of(gap_places);
-    const int cells = depth_ > 0 ? GapCells + OverlapCells : GapCells;
-    std::array<std::array<double, column_length>, volume_nodes> force;  // over R₁, by place in the volume
+    const auto gap_fit = detail::coefficients_of(detail::ends_and_between<gap_nodes>());
+    const auto first_fit = detail::coefficients_of(detail::upper_end_and_between<gap_nodes>());
+    std::array<column, volume_nodes> force;
     double most = 0;
     limit lower = with_fold(law, 0, -1);
     for (int k = 0; k < rows; ++k) {
@@ -554,55 +625,41 @@ class bridge_table {
       if (drawn != bridge_status::ok) {
         return refused(drawn);
       }
-      row& made = row_[static_cast<std::size_t>(k)];
-      std::array<detail::square_matrix<gap_nodes>, volume_nodes> first_fit;
       // the lower end of a row is the upper end of the one before it
       for (std::size_t i = 0; i < volume_nodes; ++i) {
-        const double t = volume_places[i];
-        auto first = first_places;
-        for (double& x : first) {
-          x = in_first_cell(made, t, x);
-        }
-        first_fit[i] = detail::coefficients_of(first);
         if (i == 0 && k > 0 && joined(k)) {
           force[0] = force[volume_nodes - 1];
           continue;
         }
-        detail::column_solver<Law> solver{law};
-        for (int c = cells - 1; c >= 0; --c) {  // from the deepest overlap to the last bridge
-          const auto& places = c == 0 ? first : gap_places;
-          for (std::size_t j = gap_nodes; j-- > (c == 0 ? 0U : 1U);) {
-            const auto answer = solver(pair_at(gap_of(made, t, c + (places[j] + 1) / 2)), liquid_at(k, t));
-            if (!answer.ok()) {
-              return refused(answer.reason);
-            }
-            ++report.solved;
-            const double per_radius = answer.value.force / radius1_;
-            force[i][static_cast<std::size_t>(c) * (gap_nodes - 1) + j] = per_radius;
-            most = per_radius > most ? per_radius : most;
-          }
+        const bridge_status filled = fill_column(law, k, volume_places[i], force[i], report.solved);
+        if (filled != bridge_status::ok) {
+          return refused(filled);
         }
       }
-      for (int c = 0; c < cells; ++c) {
+      for (int c = 0; c < cells(); ++c) {
+        const std::size_t first = static_cast<std::size_t>(c) * (gap_nodes - 1);
         std::array<std::array<double, gap_nodes>, volume_nodes> fitted;
         for (std::size_t i = 0; i < volume_nodes; ++i) {
           std::array<double, gap_nodes> along;
           for (std::size_t j = 0; j < gap_nodes; ++j) {
-            along[j] = force[i][static_cast<std::size_t>(c) * (gap_nodes - 1) + j];
+            along[j] = force[i][first + j];
+            most = along[j] > most ? along[j] : most;
           }
-          fitted[i] = detail::product(c == 0 ? first_fit[i] : gap_fit, along);
+          fitted[i] = detail::product(c == 0 ? first_fit : gap_fit, along);
         }
         for (std::size_t j = 0; j < gap_nodes; ++j) {
           std::array<double, volume_nodes> across;
           for (std::size_t i = 0; i < volume_nodes; ++i) {
             across[i] = fitted[i][j];
           }
-          made.force[static_cast<std::size_t>(c)].by[j] = detail::product(volume_fit, across);
+          row_[static_cast<std::size_t>(k)].force[static_cast<std::size_t>(c)].by[j] =
+              detail::product(volume_fit, across);
         }
       }
     }
-    return check(law, rows, cells, most, report);
+    return check(law, rows, most, report);
   }
+  [[nodiscard]] int cells() const noexcept { return Halvings + GapCells + (depth_ > 0 ? OverlapCells : 0); }
 
   /// Whether a row begins as the one before it ends.
   [[nodiscard]] bool joined(int k) const noexcept {
@@ -615,7 +672,7 @@ class bridge_table {
 
   /// Measures the table between its nodes.
   template <tabulable Law>
-  [[nodiscard]] table_report check(const Law& law, int rows, int cells, double most, table_report report) noexcept {
+  [[nodiscard]] table_report check(const Law& law, int rows, double most, table_report report) noexcept {
     const auto volume_places = detail::middles_of(detail::ends_and_between<volume_nodes>());
     const auto gap_places = detail::middles_of(detail::ends_and_between<gap_nodes>());
     const auto first_places = detail::middles_of(detail::upper_end_and_between<gap_nodes>());
@@ -642,10 +699,14 @@ class bridge_table {
         if (i != volume_nodes / 2 && detail::size_of(made.turn) > 1) {
           continue;  // the middle is the worst place of a row that is smooth
         }
-        for (int c = 0; c < cells; ++c) {
-          for (std::size_t j = c == 0 ? 0 : 2; j + 1 < gap_nodes; ++j) {
-            const double y = c == 0 ? in_first_cell(made, t, first_places[j]) : gap_places[j];
-            const auto e = pair_at(gap_of(made, t, c + (y + 1) / 2));
+        // where the liquid slides the halved cells are one
+        for (int c = made.slides_at_all() ? Halvings : 0; c < cells(); ++c) {
+          const bool first = c == (made.slides_at_all() ? Halvings : 0);
+          for (std::size_t j = first ? 0 : 2; j + 1 < gap_nodes; ++j) {
+            const double z = !first                 ? cell_of_index(c).at(gap_places[j])
+                             : made.slides_at_all() ? 1 + (first_places[j] - 1) / 2 * (1 - made.lowest(t))
+                                                    : cell_of_index(c).at(first_places[j]);
+            const auto e = pair_at(gap_of(made, t, z));
             const auto exact = law.bridge(e, liquid);
             const auto mine = pull(e.radius1, e.radius2, e.gap, liquid.value);
             if (!exact.ok() || !mine.ok()) {
