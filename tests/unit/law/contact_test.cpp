@@ -106,7 +106,7 @@ TEST_CASE("dry grains that do not overlap are apart, and each status has a sente
   auto state = dry.start(close_pair);
   CHECK(dry.step(close_pair, {}, 1e-6, state).reason == contact_status::apart);
   std::string seen;
-  for (int k = 0; k < 5; ++k) {
+  for (int k = 0; k < 6; ++k) {
     const std::string said = std::string("|") + describe(static_cast<contact_status>(k)) + "|";
     CHECK(seen.find(said) == std::string::npos);
     seen += said;
@@ -136,6 +136,50 @@ TEST_CASE("a dry contact: Hooke's force, a shear spring, and Coulomb's limit") {
 TEST_CASE("a state can start with a film thinner than the gap, or in an overlap") {
   const auto state = wet.start(edge<double>{1e-3, 1e-3, -1e-6, up}, 2e-7);
   CHECK(state.thickness == 2e-7);
+}
+
+TEST_CASE(
+    "rough grains that touch or overlap from the start rest on their asperities, and a step at rest keeps them so") {
+  for (const double gap : {0.0, -1e-9, -5e-7, -3e-5}) {
+    CAPTURE(gap);
+    const edge<double> e{1e-3, 1e-3, gap, up};
+    auto state = wet.start(e);
+    const double u = state.thickness;
+    CHECK(u > 0);
+    // k (u − u_n) = k_a (u_a − u) u_a/u
+    CHECK(1e4 * (u - gap) == doctest::Approx(1e4 * (1e-6 - u) * 1e-6 / u).epsilon(1e-12));
+    for (const double time : {1e-9, 1e-6, 1.0}) {
+      const auto f = wet.step(e, {}, time, state);
+      REQUIRE(f.ok());
+      CHECK(f.value.thickness == doctest::Approx(u).epsilon(1e-9));
+      CHECK(f.value.pull == doctest::Approx(-f.value.asperities).epsilon(1e-9));
+      CHECK(f.value.asperities == doctest::Approx(1e4 * (u - gap)).epsilon(1e-9));
+    }
+  }
+}
+
+TEST_CASE("smooth grains that touch or overlap from the start: a step says no_film until a thickness is given") {
+  wet_contact<> flat = wet;
+  flat.asperity_height = 0;
+  wet_contact<> soft = wet;
+  soft.asperity_stiffness = 0;
+  for (const auto& law : {flat, soft}) {
+    for (const double gap : {0.0, -2e-6}) {
+      const edge<double> e{1e-3, 1e-3, gap, up};
+      auto state = law.start(e);
+      const auto f = law.step(e, {}, 1e-6, state);
+      CHECK(f.reason == contact_status::no_film);
+      CHECK(f.kind() == verdict::refused);
+      CHECK(std::isnan(f.value.pull));
+      CHECK(state.thickness == 0);
+      CHECK(law.step({1e-3, 1e-3, not_a_number, up}, {}, 1e-6, state).reason == contact_status::invalid_input);
+      state = law.start(e, 1e-8);
+      CHECK(law.step(e, {}, 1e-6, state).ok());
+      CHECK(state.thickness > 0);
+    }
+  }
+  auto state = wet.start(edge<double>{1e-3, 1e-3, not_a_number, up});
+  CHECK(wet.step(close_pair, {}, 1e-6, state).reason == contact_status::invalid_input);
 }
 
 TEST_CASE("a wet contact held by friction does not slide; without asperities it creeps as a Maxwell element") {

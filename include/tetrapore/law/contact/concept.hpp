@@ -16,6 +16,7 @@ enum class contact_status : unsigned char {
   ok,
   apart,          ///< absent: out of reach, no force; the state starts anew
   not_covered,    ///< refused: the lubrication law does not cover this pair
+  no_film,        ///< refused: grains that overlap from the start, and nothing says how thick the film between them is
   step_too_long,  ///< failed: no number holds the thickness of the film after such a step
   invalid_input   ///< refused: NaN, a parameter, radius, time or state outside its domain
 };
@@ -26,6 +27,7 @@ enum class contact_status : unsigned char {
     case contact_status::apart: return verdict::absent;
     case contact_status::step_too_long: return verdict::failed;
     case contact_status::not_covered:
+    case contact_status::no_film:
     case contact_status::invalid_input: break;
   }
   return verdict::refused;
@@ -36,6 +38,8 @@ enum class contact_status : unsigned char {
     case contact_status::ok: return "ok";
     case contact_status::apart: return "the grains are out of reach of each other";
     case contact_status::not_covered: return "the lubrication law does not cover a pair like this";
+    case contact_status::no_film:
+      return "the grains overlap from the start and the thickness of their film is not given";
     case contact_status::step_too_long: return "no number holds the thickness of the film after a step of this length";
     case contact_status::invalid_input: return "a radius, gap, time, parameter or state outside the domain";
   }

@@ -44,10 +44,24 @@ struct wet_contact {
     vec3<T> normal{};  ///< of the last step
   };
 
-  /// A pair that comes into reach: the film fills the gap. Grains that overlap from the start are given a thickness.
+  /// A pair that comes into reach: the film fills the gap. Grains that touch or overlap from the start rest on their
+  /// asperities, k (u − u_n) = k_a (u_a − u) u_a/u; smooth ones have no thickness at rest: it has to be given, and a step
+  /// says `no_film` until it is.
   template <real T>
   [[nodiscard]] state<T> start(const edge<T>& e) const noexcept {
-    return {e.gap, {}, e.normal};
+    using std::sqrt;
+    if (!(e.gap <= T(0))) {
+      return {e.gap, {}, e.normal};
+    }
+    const auto number = [](double x) { return T(static_cast<underlying_t<T>>(x)); };
+    const T held = number(asperity_stiffness) * number(asperity_height);
+    const T linear = held - number(normal_stiffness) * e.gap;
+    const T constant = held * number(asperity_height);
+    if (!(constant > T(0))) {
+      return {T(0), {}, e.normal};
+    }
+    const T root = sqrt(linear * linear + T(4) * number(normal_stiffness) * constant);
+    return {T(2) * constant / (linear + root), {}, e.normal};
   }
   template <real T>
   [[nodiscard]] state<T> start(const edge<T>& e, const T& thickness) const noexcept {
@@ -63,7 +77,8 @@ struct wet_contact {
     const auto number = [](double x) { return T(static_cast<underlying_t<T>>(x)); };
     const contact_status first = detail::admit_contact(e, time, {normal_stiffness, shear_stiffness}, friction);
     if (first != contact_status::ok || !(s.thickness > T(0)) || !(asperity_height >= 0) || !(asperity_stiffness >= 0)) {
-      return detail::no_contact_forces<T>(contact_status::invalid_input);
+      const bool given_nothing = first == contact_status::ok && s.thickness <= T(0) && !(s.thickness < T(0));
+      return detail::no_contact_forces<T>(given_nothing ? contact_status::no_film : contact_status::invalid_input);
     }
     edge<T> gap = e;
     gap.gap = s.thickness;
