@@ -317,7 +317,6 @@ constexpr auto rabinovich_2005 = cold<rabinovich<>, volume>;
 constexpr auto soulie_2006 = cold<soulie<>, volume>;
 constexpr auto weigert_1999 = cold<weigert_ripperger<>, volume>;
 constexpr auto table_16 = table<16>;
-constexpr auto table_8 = table<8>;
 
 BENCHMARK_CAPTURE(exact_volume_6, equal, shape::equal);
 BENCHMARK_CAPTURE(exact_volume_8, equal, shape::equal);
@@ -332,7 +331,6 @@ BENCHMARK_CAPTURE(warm_suction, equal, shape::equal);
 BENCHMARK_CAPTURE(warm_suction, unequal, shape::unequal);
 BENCHMARK_CAPTURE(table_16, equal, shape::equal);
 BENCHMARK_CAPTURE(table_16, unequal, shape::unequal);
-BENCHMARK_CAPTURE(table_8, equal, shape::equal);
 BENCHMARK_CAPTURE(toroid_volume, equal, shape::equal);
 BENCHMARK_CAPTURE(toroid_volume, unequal, shape::unequal);
 BENCHMARK_CAPTURE(toroid_suction, equal, shape::equal);
@@ -345,5 +343,6 @@ BENCHMARK_CAPTURE(soulie_2006, equal, shape::equal);
 BENCHMARK_CAPTURE(soulie_2006, unequal, shape::unequal);
 BENCHMARK_CAPTURE(weigert_1999, equal, shape::equal);
 BENCHMARK_TEMPLATE(build_a_table, 10)->Unit(benchmark::kMillisecond);
+BENCHMARK_TEMPLATE(build_a_table, 20)->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -210,8 +210,8 @@ struct table_report {
 /// spheres slides to one side before the bridge folds, D_f is the gap at which it would, so that the force stays smooth
 /// in y, and the y of the last bridge is a curve of its own: it starts from 0 at the volume from which on the liquid
 /// slides. Where the pair is not quite equal, the force bends sharply right before the fold: the last cell is halved
-/// again and again. The bits of the volume are the cell and the place in it, so that a look-up takes one square root and
-/// no logarithm. Overlaps have cells of their own.
+/// again and again. The bits of the volume are the cell and the place in it: a look-up takes one square root and no
+/// logarithm. Overlaps have cells of their own.
 /// \par Units   inside: lengths in R₁, forces over R₁ [N/m]
 /// \par Source  the variables are this project's; after a table in (ln V, √(1 − ξ)), ξ a ratio of logarithms of the gap
 template <int Octaves = 20, int GapCells = 16>
