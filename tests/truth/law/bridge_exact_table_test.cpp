@@ -168,8 +168,8 @@ template <int Nodes, class T>
 
 }  // namespace
 
-// The contact angles of the law are doubles: 40° is off by up to 1e-16 from that of the table, which long double sees in
-// the force. That shift is known to first order, from two angles beside it, and taken off.
+// The contact angles of the law are doubles: 40° is off by up to 1e-16 from that of the table, which long double sees
+// in the force. That shift is known to first order, from two angles beside it, and taken off.
 TEST_CASE("long double: every stable row to 1e-17 or the rounding of its request, at the angles that a double holds") {
   const csv_table t(test_file("truth/open_bridge.csv"));
   using real = long double;

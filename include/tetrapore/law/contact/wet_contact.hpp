@@ -45,8 +45,8 @@ struct wet_contact {
   };
 
   /// A pair that comes into reach: the film fills the gap. Grains that touch or overlap from the start rest on their
-  /// asperities, k (u − u_n) = k_a (u_a − u) u_a/u; smooth ones have no thickness at rest: it has to be given, and a step
-  /// says `no_film` until it is.
+  /// asperities, k (u − u_n) = k_a (u_a − u) u_a/u. Smooth ones have no thickness at rest: it has to be given, and a
+  /// step says `no_film` until it is.
   template <real T>
   [[nodiscard]] state<T> start(const edge<T>& e) const noexcept {
     using std::sqrt;
