@@ -145,3 +145,30 @@ TEST_CASE("liquid between planes of one angle at the limit of a plane: a cylinde
   CHECK(limit.value.end == bridge_end::lopsided);
   CHECK(std::abs(limit.value.gap / std::cbrt(pi<double>) - 1) < 1e-5);
 }
+
+TEST_CASE(
+    "θ = 0: equal spheres turn lopsided where the profile is one period of an unduloid, from equator to equator") {
+  // with half the mean curvature −(1 + q)/2 the bulges have the radius 1 of the spheres; periodic: trapezia converge
+  constexpr int nodes = 4000;
+  for (const double q : {1e-3, 0.01, 0.1, 0.2, 0.3, 0.38}) {
+    CAPTURE(q);
+    const double k = (1 + q) / 2;
+    double length = 0;
+    double volume = 0;
+    for (int i = 0; i < nodes; ++i) {
+      const double psi = 2 * pi<double> * i / nodes;
+      const double z = (1 - q * std::cos(psi)) / (2 * k);
+      const double r = std::sqrt(1 + q * q - 2 * q * std::cos(psi)) / (2 * k);
+      length += z / r;
+      volume += pi<double> * z * r;
+    }
+    length *= pi<double> / (k * nodes);
+    volume = volume * pi<double> / (k * nodes) - 4 * pi<double> / 3;
+    const auto limit = law_of(0, 0).rupture_gap(edge<double>{1.0, 1.0, 0.0, {0, 0, 1}}, given_volume<double>{volume});
+    REQUIRE(limit.ok());
+    CHECK(limit.value.end == bridge_end::lopsided);
+    CHECK(std::abs(limit.value.gap / (length - 2) - 1) < 1e-12);
+    CHECK(std::abs(limit.value.last.suction / (-2 * k) - 1) < 1e-7);
+    CHECK(std::abs(limit.value.last.filling1 - pi<double> / 2) < 1e-7);
+  }
+}

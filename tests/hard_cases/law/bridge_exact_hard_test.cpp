@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <limits>
+#include <random>
 
 using namespace bridges;
 
@@ -270,4 +271,180 @@ TEST_CASE("bridges form at contact or at a given gap and last until they rupture
         bridge_status::invalid_input);
   CHECK(apart.bridge(water, edge<double>{1, 1, nan, {1, 0, 0}}, given_volume<double>{1e-3}).reason ==
         bridge_status::invalid_input);
+}
+
+TEST_CASE("a plane at θ = 0 floods at a suction of 0 and less, whatever the sphere's angle; above 0 it has a bridge") {
+  const double inf = infinity<double>;
+  for (const double theta : {0.0, 30.0, 80.0}) {
+    for (const double gap : {0.0, 0.05, 3.0, -0.01}) {
+      CAPTURE(theta);
+      CAPTURE(gap);
+      for (const double suction : {0.0, -1e-12, -0.5, -3.0}) {
+        CHECK(by_suction(theta, 0, inf, gap, suction).reason == bridge_status::flooded);
+        // seen from its other end
+        const auto turned =
+            law_of(0, radians(theta)).bridge(edge<double>{inf, 1.0, gap, up}, given_suction<double>{suction});
+        CHECK(turned.reason == bridge_status::flooded);
+      }
+    }
+    const auto law = law_of(radians(theta), 0);
+    const edge<double> e{1.0, inf, 0.0, up};
+    CHECK(law.rupture_gap(e, given_suction<double>{0.0}).reason == bridge_status::flooded);
+    CHECK(law.rupture_gap(e, given_suction<double>{-1.0}).reason == bridge_status::flooded);
+    CHECK(law.bridge(e, given_suction<double>{1e-10}).ok());
+  }
+  // a plane that is wetted less holds a bridge at a suction of 0
+  CHECK(by_suction(0, 30, inf, 0.05, 0.0).ok());
+}
+
+TEST_CASE("the highest suction over a plane at θ = 0, where it falls off as exp(−2 gap) from gap to gap of a radius") {
+  const double inf = infinity<double>;
+  const auto law = law_of(0, 0);
+  double before = inf;
+  for (const double gap : {0.5, 3.0, 5.0, 8.0, 10.0, 20.0, 100.0}) {
+    CAPTURE(gap);
+    const edge<double> e{1.0, inf, gap, up};
+    const auto highest = law.highest_suction(e);
+    REQUIRE(highest.ok());
+    CHECK(highest.value < before);
+    before = highest.value;
+    const auto limit = law.rupture_gap(e, given_suction<double>{highest.value});
+    REQUIRE(limit.ok());
+    CHECK(std::abs(limit.value.gap / gap - 1) < 1e-11);
+    CHECK(law.bridge(e, given_suction<double>{highest.value * (1 - 1e-6)}).ok());
+    CHECK(law.bridge(e, given_suction<double>{highest.value * (1 + 1e-6)}).reason == bridge_status::ruptured);
+  }
+  CHECK(law.highest_suction(edge<double>{1.0, inf, 1e4, up}).reason == bridge_status::ruptured);
+}
+
+TEST_CASE("so much liquid that it would close over a grain at contact: from where it opens to the rupture") {
+  const double inf = infinity<double>;
+  struct {
+    double r2, theta1, theta2, volume;
+  } const cases[] = {{1, 25.5, 25.5, 47.9}, {1, 60, 60, 300}, {inf, 40, 40, 1e3}, {inf, 40, 40, 63100},
+                     {inf, 40, 20, 3e4},    {10, 15, 56, 52}, {3, 1, 30, 200},    {0.2, 50, 20, 10.0},
+                     {1, 5, 1, 100},        {1, 10, 70, 5e3}};
+  for (const auto& c : cases) {
+    CAPTURE(c.r2);
+    CAPTURE(c.theta1);
+    CAPTURE(c.volume);
+    const auto law = law_of(radians(c.theta1), radians(c.theta2));
+    const auto given = given_volume<double>{c.volume};
+    const auto with = [&](double gap) { return edge<double>{1.0, c.r2, gap, up}; };
+    CHECK(law.bridge(with(0.0), given).reason == bridge_status::flooded);
+    const auto limit = law.rupture_gap(with(0.0), given);
+    REQUIRE(limit.ok());
+    const double widest = limit.value.gap;
+    const auto last = law.bridge(with(widest * (1 - 1e-9)), given);
+    REQUIRE(last.ok());
+    CHECK(std::abs(last.value.force / limit.value.last.force - 1) < 1e-3);
+    CHECK(law.bridge(with(widest * (1 + 1e-9)), given).reason ==
+          (limit.value.end == bridge_end::fold ? bridge_status::ruptured : bridge_status::lopsided));
+    // stable by finite elements, and of the law's own force: the slope of the energy
+    const double gap = 0.97 * widest;
+    const auto b = law.bridge(with(gap), given);
+    REQUIRE(b.ok());
+    const request asked{with(gap), radians(c.theta1), radians(c.theta2), true, c.volume};
+    CHECK(count_negative(asked, b.value).at_volume == 0);
+    const double step = 1e-4 * widest;
+    const auto energy = [&](double at_gap) {
+      const auto beside = law.bridge(with(at_gap), given);
+      REQUIRE(beside.ok());
+      return law.energy(with(at_gap), beside.value);
+    };
+    const double slope = (energy(gap + step) - energy(gap - step)) / (2 * step);
+    CHECK(std::abs(slope / b.value.force - 1) < 1e-5);
+    // down to where it closes, flooded from there on
+    double open = gap;
+    double shut = 0;
+    for (int i = 0; i < 30; ++i) {
+      const double middle = 0.5 * (open + shut);
+      const auto there = law.bridge(with(middle), given);
+      CHECK((there.ok() || there.reason == bridge_status::flooded));
+      (there.ok() ? open : shut) = middle;
+    }
+    CHECK(open < gap);
+    CHECK(law.bridge(with(0.9 * shut), given).reason == bridge_status::flooded);
+  }
+}
+
+TEST_CASE("θ = 0: liquid closes over both grains as a ball about them, and is right until then") {
+  double worst = 0;
+  for (const double r2 : {1.0, 0.554, 0.1}) {
+    for (const double gap : {0.0, 0.3, 2.0}) {
+      CAPTURE(r2);
+      CAPTURE(gap);
+      const double ball = 1 + r2 + gap / 2;
+      const double full = 4 * pi<double> / 3 * (ball * ball * ball - 1 - r2 * r2 * r2);
+      for (const double share : {0.9, 0.97, 0.999, 0.99999, 0.999999, 1.000001, 1.01, 3.0}) {
+        CAPTURE(share);
+        const auto b = at(0, 0, r2, gap, share * full);
+        if (share > 1) {
+          CHECK((b.reason == bridge_status::flooded || b.kind() == verdict::absent));
+          continue;
+        }
+        REQUIRE(b.ok());
+        const edge<long double> e{1, static_cast<long double>(r2), static_cast<long double>(gap), {0, 0, 1}};
+        const auto truth =
+            law_of<40>(0, 0).bridge(e, given_volume<long double>{static_cast<long double>(share * full)});
+        REQUIRE(truth.ok());
+        const double off = std::abs(static_cast<double>(b.value.force - truth.value.force));
+        // gap and volume are what the ball leaves of grains: a rounding of theirs
+        const auto s = law_of(0, 0).stiffness(edge<double>{1.0, r2, gap, up}, b.value);
+        const double rounding = std::ldexp(2 * ball * std::abs(s.force_by_gap_at_volume) +
+                                               4 * ball * ball * ball * std::abs(s.suction_by_gap_at_volume),
+                                           -53);
+        CHECK(off < 1e-12 * std::abs(b.value.force) + 16 * rounding);
+        worst = std::max(worst, off / (1e-12 * std::abs(b.value.force) + 16 * rounding));
+      }
+    }
+  }
+  MESSAGE("worst error ", worst, " of that");
+}
+
+TEST_CASE("no bridge is taken for out of reach, and none out of reach is named otherwise than by its whole curve") {
+  std::mt19937_64 random(20);
+  const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); };
+  int early = 0;
+  int asked = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const double kind = uniform(0, 1);
+    const double r2 = kind < 0.4   ? 1.0
+                      : kind < 0.5 ? infinity<double>
+                                   : std::pow(10.0, kind < 0.8 ? uniform(0, 0.5) : uniform(0.5, 4));
+    const double theta1 = uniform(0, 1) < 0.15 ? 0.0 : uniform(0, 89.9);
+    const double theta2 = uniform(0, 1) < 0.6 ? theta1 : uniform(0, 89.9);
+    const bool by_volume = i % 2 == 0;
+    const double value = std::pow(10.0, by_volume ? uniform(-12, 3) : uniform(-2, 5));
+    CAPTURE(r2);
+    CAPTURE(theta1);
+    CAPTURE(theta2);
+    CAPTURE(value);
+    const auto law = law_of(radians(theta1), radians(theta2));
+    const auto with = [&](double gap) { return edge<double>{1.0, r2, gap, up}; };
+    const auto limit = by_volume ? law.rupture_gap(with(0.0), given_volume<double>{value})
+                                 : law.rupture_gap(with(0.0), given_suction<double>{value});
+    REQUIRE(limit.ok());
+    const detail::surface_pair<double> pair{{{{1.0, std::cos(radians(theta1)), std::sin(radians(theta1))},
+                                              {1.0 / r2, std::cos(radians(theta2)), std::sin(radians(theta2))}}},
+                                            r2 == 1.0 && theta1 == theta2};
+    detail::demand<double> d{0.0, by_volume ? value : 0.5 * value,
+                             by_volume ? bridge_control::volume : bridge_control::suction};
+    // the bound of a suction is a theorem, that of a volume keeps a margin
+    d.gap = limit.value.gap * (by_volume ? 1.03 : 1.0);
+    CHECK_FALSE(detail::out_of_reach(pair, d));
+    if (i % 4 > 1) {
+      continue;
+    }
+    for (const double share : {1.02, 1.3, 2.0, 10.0}) {
+      d.gap = share * limit.value.gap;
+      early += detail::out_of_reach(pair, d) ? 1 : 0;
+      ++asked;
+      const auto b = by_volume ? law.bridge(with(d.gap), given_volume<double>{value})
+                               : law.bridge(with(d.gap), given_suction<double>{value});
+      CHECK(b.reason == (limit.value.end == bridge_end::fold ? bridge_status::ruptured : bridge_status::lopsided));
+    }
+  }
+  MESSAGE("told without a march: ", early, " of ", asked);
+  CHECK(2 * early > asked);
 }

@@ -470,7 +470,7 @@ template <int N, bool Equal, std::floating_point T>
   const path<Equal, T> opening(pair, at, along::gap);
   const int sense = gap_limit < at.gap ? -1 : 1;
   trip = follow<N>(opening, opening.template begin<N>(u, sense), gap_limit, sense);
-  if (sense < 0 && trip.how == arrival::at_fold) {
+  if (sense < 0 && (trip.how == arrival::at_fold || trip.how == arrival::at_slide)) {
     trip.how = arrival::at_limit;
   }
   return trip;

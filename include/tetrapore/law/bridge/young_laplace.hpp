@@ -337,7 +337,7 @@ struct young_laplace {
     }
     const bool far = (trip.how == detail::arrival::at_fold || trip.how == detail::arrival::at_slide) &&
                      std::abs(d.gap - trip.end.reach) > W(0.01) * std::abs(d.gap);
-    if (!far && trip.how != detail::arrival::at_limit) {
+    if (!far) {
       trip = detail::travel<fine, Equal>(pair, d, d.gap);
     }
     switch (trip.how) {
@@ -368,9 +368,10 @@ struct young_laplace {
     // the two sides of a virtual neck cancel
     const bool beside =
         f.u.by == detail::chart::from_extremum && f.u.k < W(0) && (f.at.cosine[0] < W(0)) != (f.at.cosine[1] < W(0));
-    // a neck so thin that the nodes may miss it
-    const bool pinched = f.u.by == detail::chart::from_contact && std::abs(f.at.modulus - W(1)) < W(0.05);
-    return beside || pinched || std::abs(lambda_gap) * std::abs(f.at.gap) > W(6) * std::abs(f.at.lambda);
+    // a circle far from the neck and near a bulge
+    const W w = f.u.w[0] < f.u.w[1] ? f.u.w[1] : f.u.w[0];
+    const bool far = f.u.by == detail::chart::from_extremum && f.u.k * w < W(-0.45) && w > W(4.5) * f.u.extent;
+    return beside || far || std::abs(lambda_gap) * std::abs(f.at.gap) > W(6) * std::abs(f.at.lambda);
   }
 
   template <class T, bool Equal, class W = work<T>>
