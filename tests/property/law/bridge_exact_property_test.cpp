@@ -36,7 +36,7 @@ class random_requests {
     double value = 0;
     double size = small;
     if (by_volume) {
-      value = std::pow(10.0, uniform(0, 1) < 0.9 ? uniform(-8, 0.5) : uniform(0.5, 3)) * small * small * small;
+      value = std::pow(10.0, uniform(0, 1) < 0.95 ? uniform(-8, 0.5) : uniform(0.5, 3)) * small * small * small;
       size = 0.9 * std::cbrt(value);
     } else if (uniform(0, 1) < 0.85) {
       value = std::pow(10.0, uniform(-2, 4)) / small;
@@ -157,8 +157,7 @@ bool plenty(const request& q, double volume) {
 
 }  // namespace
 
-TEST_CASE(
-    "100,000 random requests: Maxwell's relation, force at ends and gorge, exchange, homogeneity, both controls") {
+TEST_CASE("100,000 random requests: Maxwell's relation, force at ends and gorge, exchange, scale, both controls") {
   random_requests random(11);
   tally_of_statuses volume;
   tally_of_statuses suction;
@@ -170,17 +169,11 @@ TEST_CASE(
     const request q = random.next();
     const auto b = q.bridge();
     (q.by_volume ? volume : suction).add(b.reason);
-    // where liquid without end drowns a surface
-    const bool drowning = q.by_volume ? plenty(q, 0.2 * q.value) : q.value < 0;
-    if (!b.ok() && i % 8 != 0) {
+    if (!b.ok() && i % 16 != 0) {
       continue;
     }
     const auto back = exchanged(q).bridge();
-    if (back.reason != b.reason) {
-      ++turned;
-      CAPTURE(i);
-      CHECK(drowning);
-    }
+    turned += back.reason == b.reason ? 0 : 1;
     if (b.ok() && !plenty(q, b.value.volume)) {
       relate<10>(q, b.value, back, usual);
     } else if (b.ok() && i % 8 == 0) {
@@ -198,9 +191,9 @@ TEST_CASE(
     CHECK((*t)[invalid_input] + (*t)[no_liquid] + (*t)[not_covered] == 0);
     CHECK((*t)[ok] > many / 10);
     CHECK((*t)[ruptured] > many / 200);
-    CHECK((*t)[not_converged] <= many / 200);
+    CHECK((*t)[not_converged] == 0);
   }
-  CHECK(turned <= many / 500);
+  CHECK(turned == 0);
   for (const auto* r : {&usual, &much}) {
     MESSAGE(r->bridges << " bridges; Maxwell " << r->maxwell.value << " and chain " << r->chain.value
                        << " roundings, ends " << r->ends.value << ", gorge " << r->gorge.value
@@ -216,7 +209,7 @@ TEST_CASE(
   }
   CHECK(usual.bridges > many * 6 / 10);
   CHECK(much.bridges > many / 200);
-  MESSAGE("with much liquid 10 nodes are off by " << nodes.value << ", " << turned << " requests change their status");
+  MESSAGE("with much liquid 10 nodes are off by " << nodes.value);
   CHECK(nodes.value < 1e-6);
 }
 
