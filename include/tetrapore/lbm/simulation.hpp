@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <new>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -79,11 +80,12 @@ class simulation {
       if constexpr (Storage == storage::two_lattices) {
         next_[c].assign(directions * stride_, T(0));
       }
-      psi_[c].assign(stride_ + tags, static_cast<T>(model_.potential(model_.reference[c])));
+      psi_[c].assign(stride_ + tags + map_.images().size(), static_cast<T>(model_.potential(model_.reference[c])));
     }
     walls_.fill(model_.reference);
     reservoirs_.fill(model_.reference);
     make_batches();
+    make_images();
   }
 
   [[nodiscard]] const Model& model() const noexcept { return model_; }
@@ -171,8 +173,7 @@ class simulation {
       for (std::size_t i = 0; i < directions; ++i) {
         f[c][i] = static_cast<double>(population(c, node, i));
         const auto s = map_.seen(node, static_cast<int>(i));
-        psi[c][i] = model_.potential(
-            s.node == site_map<lattice_type>::none ? walls_[s.wall][c] : shown(c, static_cast<std::size_t>(s.node)));
+        psi[c][i] = psi_of(c, s);
       }
     }
     double u[3];
@@ -203,6 +204,7 @@ class simulation {
  private:
   enum class stream { turn, exchange, pull };
   static constexpr std::size_t tags = 256;
+  static constexpr std::int32_t none = site_map<lattice_type>::none;
   static constexpr std::size_t width = static_cast<std::size_t>(Lanes);
   static constexpr int count = static_cast<int>(directions);
   static constexpr int parts = static_cast<int>(components);
@@ -226,6 +228,15 @@ class simulation {
   struct plane {
     std::size_t first_run, last_run;
     std::size_t first_loose, last_loose;
+    std::size_t first_image, last_image;  ///< which this plane is the first to see
+    std::size_t needs;                    ///< how many planes must show their ψ before this one is updated
+  };
+  /// ψ of a point beyond a mirror, from nodes and walls.
+  struct image_slots {
+    std::int32_t from[8];
+    T weight[8];
+    std::size_t count;
+    std::int32_t slot;
   };
 
   [[nodiscard]] bool odd() const noexcept { return steps_ % 2 == 1; }
@@ -248,7 +259,7 @@ class simulation {
 
   void make_batches() {
     for (std::size_t x = 0; x < map_.plane_count(); ++x) {
-      plane p{runs_.size(), 0, loose_.size(), 0};
+      plane p{runs_.size(), 0, loose_.size(), 0, 0, 0, std::min(x + 2, map_.plane_count())};
       auto n = static_cast<std::size_t>(map_.plane_begin(x));
       const auto end = static_cast<std::size_t>(map_.plane_begin(x + 1));
       std::vector<std::int32_t> rest;
@@ -303,6 +314,52 @@ class simulation {
     }
   }
 
+  /// Images in the order of the first plane that sees them.
+  void make_images() {
+    const auto& all = map_.images();
+    std::vector<std::size_t> order(all.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return all[a].first_user < all[b].first_user; });
+    std::size_t next = 0;
+    std::size_t needs = 0;
+    for (std::size_t x = 0; x < batches_.size(); ++x) {
+      batches_[x].first_image = next;
+      for (; next < order.size() && all[order[next]].first_user == static_cast<int>(x); ++next) {
+        const auto& image = all[order[next]];
+        image_slots slots{};
+        slots.count = image.count;
+        slots.slot = slot_of(none, 0, static_cast<std::int32_t>(order[next]));
+        for (std::size_t s = 0; s < image.count; ++s) {
+          slots.from[s] = slot_of(image.from[s].node, image.from[s].wall, none);
+          slots.weight[s] = static_cast<T>(image.from[s].weight);
+        }
+        images_.push_back(slots);
+        needs = std::max(needs, static_cast<std::size_t>(image.last_plane) + 1);
+      }
+      batches_[x].last_image = next;
+      batches_[x].needs = std::max(batches_[x].needs, needs);
+    }
+  }
+
+  /// Where ψ of what a node sees is kept.
+  [[nodiscard]] std::int32_t slot_of(std::int32_t node, std::uint8_t wall, std::int32_t image) const noexcept {
+    return node != none    ? node
+           : image != none ? static_cast<std::int32_t>(stride_ + tags) + image
+                           : static_cast<std::int32_t>(stride_ + wall);
+  }
+  [[nodiscard]] double psi_of(std::size_t c, const typename site_map<lattice_type>::sight& s) const noexcept {
+    if (s.image == none) {
+      return model_.potential(s.node == none ? walls_[s.wall][c] : shown(c, static_cast<std::size_t>(s.node)));
+    }
+    const auto& image = map_.images()[static_cast<std::size_t>(s.image)];
+    double sum = 0;
+    for (std::size_t k = 0; k < image.count; ++k) {
+      sum += image.from[k].weight * psi_of(c, {image.from[k].node, none, image.from[k].wall});
+    }
+    return sum;
+  }
+
   /// Whether all that leaves a node goes on as it is; then by which offsets.
   [[nodiscard]] bool regular(std::size_t n, offsets& by) const noexcept {
     for (std::size_t k = 0; k < directions; ++k) {
@@ -331,7 +388,7 @@ class simulation {
         const auto to = map_.leaving(n, static_cast<int>(k));
         b.gate[k][lane] = static_cast<std::int32_t>(to.as * stride_ + static_cast<std::size_t>(to.to));
         const auto s = map_.seen(n, static_cast<int>(k));
-        b.seen[k][lane] = s.node == site_map<lattice_type>::none ? static_cast<std::int32_t>(stride_ + s.wall) : s.node;
+        b.seen[k][lane] = slot_of(s.node, s.wall, s.image);
       }
     }
     return b;
@@ -340,16 +397,32 @@ class simulation {
   template <stream S>
   void sweep() {
     const std::size_t planes = batches_.size();
-    const auto wrap = map_.box().low[0] == face_kind::periodic;
-    prepare<S>(0);
-    if (wrap && planes > 2) {
+    const bool wrap = map_.box().low[0] == face_kind::periodic;
+    if (wrap) {
       prepare<S>(planes - 1);
     }
+    std::size_t ready = 0;
     for (std::size_t x = 0; x < planes; ++x) {
-      if (x + 1 < planes && !(wrap && planes > 2 && x + 2 == planes)) {
-        prepare<S>(x + 1);
+      for (; ready < batches_[x].needs; ++ready) {
+        if (!(wrap && ready + 1 == planes)) {
+          prepare<S>(ready);
+        }
       }
+      show_images(batches_[x]);
       update<S>(x);
+    }
+  }
+
+  void show_images(const plane& p) noexcept {
+    for (std::size_t k = p.first_image; k < p.last_image; ++k) {
+      const auto& image = images_[k];
+      for (std::size_t c = 0; c < components; ++c) {
+        T sum(0);
+        for (std::size_t s = 0; s < image.count; ++s) {
+          sum += image.weight[s] * psi_[c][static_cast<std::size_t>(image.from[s])];
+        }
+        psi_[c][static_cast<std::size_t>(image.slot)] = sum;
+      }
     }
   }
 
@@ -510,6 +583,7 @@ class simulation {
   std::vector<run_of_batches> runs_;
   std::vector<loose_batch> loose_;
   std::vector<plane> batches_;
+  std::vector<image_slots> images_;
 };
 
 }  // namespace lbm

@@ -19,7 +19,8 @@ namespace {
 template <class Lattice, class Collision, class Forcing>
 using fluid = mixture<Lattice, Collision, Forcing, linear_potential, 1>;
 
-/// The largest error of the velocity between two plates, relative to the largest velocity; plates across y, flow along x.
+/// The largest error of the velocity between two plates, relative to the largest velocity; plates across y, flow along
+/// x.
 template <class Model>
 double channel_error(int width, double tau) {
   Model m;
