@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "tetrapore/core/error.hpp"
+#include "tetrapore/lbm/sites.hpp"
+#include "tetrapore/simplex/opening.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+/// \file
+/// The nodes of a throat: the prism over the triangle of three grains' centres, less the grains, between a reservoir
+/// above and one below.
+
+namespace tetrapore::inline TETRAPORE_ABI {
+namespace lbm {
+
+/// What stands behind a side of the prism.
+enum class prism_side : std::uint8_t {
+  mirror,  ///< the throat's own image: gas may cross the gap there
+  wetting  ///< wetting liquid, as in a neighbour that is still wet
+};
+
+/// Tags of a throat's walls and reservoirs.
+inline constexpr std::uint8_t grain_wall = 1;
+inline constexpr std::uint8_t liquid_wall = 2;
+inline constexpr std::uint8_t reservoir_below = 0;
+inline constexpr std::uint8_t reservoir_above = 1;
+
+/// How a throat is laid on a lattice.
+/// \par Units  lengths in nodes but where said
+struct throat_resolution {
+  double nodes_per_length = 1;  ///< nodes per unit of length of the opening
+  double retraction = 0;        ///< by how much each grain's radius is reduced: room for the film on it
+  double above = 0;             ///< from the plane of the centres up to the reservoir
+  double below = 0;
+};
+
+/// A throat of three grains on a lattice: x along its longest side, z along its axis.
+/// \par Domain  openings of three discs whose triangle is not degenerate; grains that leave fluid between them
+class throat_on_lattice {
+ public:
+  /// Throws parameter_error for an opening of other sides than three discs or a lattice that leaves no room.
+  throat_on_lattice(const opening<double>& o, const std::array<prism_side, 3>& sides, const throat_resolution& r)
+      : resolution_(r) {
+    if (o.count != 3) {
+      throw parameter_error("throat", std::to_string(o.count) + " sides", "three grains");
+    }
+    std::array<vec2<double>, 3> corner;
+    std::size_t longest = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (o.sides[k].kind != side_kind::disc) {
+        throw parameter_error("throat", "a wall as side " + std::to_string(k), "three grains");
+      }
+      corner[k] = o.sides[k].point * r.nodes_per_length;
+    }
+    if (!(r.nodes_per_length > 0) || !(r.above > 0) || !(r.below > 0) || !(r.retraction >= 0)) {
+      throw parameter_error("throat", "a resolution of " + short_number(r.nodes_per_length) + " nodes",
+                            "nodes, above and below more than 0, a retraction of 0 or more");
+    }
+    for (std::size_t k = 1; k < 3; ++k) {
+      if (norm(corner[(k + 1) % 3] - corner[k]) > norm(corner[(longest + 1) % 3] - corner[longest])) {
+        longest = k;
+      }
+    }
+    // the longest side lies half a node below the nodes y = 0, so that its mirror is a face of the box
+    const vec2<double> along = corner[(longest + 1) % 3] - corner[longest];
+    const double length = norm(along);
+    const vec2<double> e = along * (1 / length);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t from = (longest + k) % 3;
+      const vec2<double> d = corner[from] - corner[longest];
+      grains_[k] = {{dot(d, e) - 0.5, cross(e, d) - 0.5}, o.sides[from].radius * r.nodes_per_length - r.retraction};
+      sides_[k] = sides[from];
+      if (!(grains_[k].radius > 0)) {
+        throw parameter_error("throat",
+                              "a grain of " + short_number(o.sides[from].radius * r.nodes_per_length) + " nodes",
+                              "more than the retraction of " + short_number(r.retraction));
+      }
+    }
+    const double height = grains_[2].centre.y + 0.5;
+    if (!(height > 1e-6 * length)) {
+      throw parameter_error("throat", "centres on a line", "a triangle");
+    }
+    box_.size = {static_cast<int>(std::ceil(length)) + 1, static_cast<int>(std::ceil(height)) + 1,
+                 static_cast<int>(std::ceil(r.above + r.below)) + 1};
+    middle_ = r.below;
+    box_.low = {face_kind::wall, sides_[0] == prism_side::mirror ? face_kind::mirror : face_kind::wall,
+                face_kind::wall};
+    box_.high = {face_kind::wall, face_kind::wall, face_kind::wall};
+  }
+
+  [[nodiscard]] const lattice_box& box() const noexcept { return box_; }
+  /// z of the plane of the centres.
+  [[nodiscard]] double middle() const noexcept { return middle_; }
+
+  template <lattice L>
+  [[nodiscard]] site_map<L> sites() const {
+    return site_map<L>(
+        box_, [this](int x, int y, int z) { return at(x, y, z); },
+        [this](int x, int y, int z) { return image<L>(x, y, z); });
+  }
+
+  [[nodiscard]] site at(int x, int y, int z) const noexcept {
+    const vec2<double> p{static_cast<double>(x), static_cast<double>(y)};
+    for (const grain_section& g : grains_) {
+      const vec2<double> d = p - g.centre;
+      const double up = z - middle_;
+      if (dot(d, d) + up * up < g.radius * g.radius) {
+        return {site_kind::solid, grain_wall};
+      }
+    }
+    for (std::size_t k = 1; k < 3; ++k) {
+      if (outside(p, k) > 0) {
+        return sides_[k] == prism_side::mirror ? site{site_kind::image, 0} : site{site_kind::solid, liquid_wall};
+      }
+    }
+    if (z == 0 || z + 1 == box_.size[2]) {
+      return {site_kind::reservoir, z == 0 ? reservoir_below : reservoir_above};
+    }
+    return {};
+  }
+
+ private:
+  struct grain_section {
+    vec2<double> centre;
+    double radius;
+  };
+
+  /// How far a point lies beyond side k.
+  [[nodiscard]] double outside(const vec2<double>& p, std::size_t k) const noexcept {
+    const vec2<double>& a = grains_[k].centre;
+    const vec2<double> side = grains_[(k + 1) % 3].centre - a;
+    return -cross(side, p - a) / norm(side);
+  }
+  [[nodiscard]] vec2<double> folded(const vec2<double>& p, std::size_t k) const noexcept {
+    const vec2<double> side = grains_[(k + 1) % 3].centre - grains_[k].centre;
+    const double length = norm(side);
+    return p + vec2<double>{-side.y, side.x} * (2 * outside(p, k) / length);
+  }
+  /// The point inside the prism of which a point outside is the image.
+  [[nodiscard]] vec2<double> inside(vec2<double> p) const noexcept {
+    for (int turn = 0; turn < 8; ++turn) {
+      bool within = true;
+      if (p.y < -0.5) {
+        p.y = -1 - p.y;
+        within = false;
+      }
+      for (std::size_t k = 1; k < 3; ++k) {
+        if (outside(p, k) > 1e-12) {
+          p = folded(p, k);
+          within = false;
+        }
+      }
+      if (within) {
+        break;
+      }
+    }
+    return p;
+  }
+
+  /// Bilinear in the plane, whose mirrors stand upright. A corner that is itself beyond a mirror is replaced by the node
+  /// next to its own mirrored point.
+  template <lattice L>
+  [[nodiscard]] typename site_map<L>::image_point image(int x, int y, int z) const noexcept {
+    typename site_map<L>::image_point of;
+    const vec2<double> p = inside({static_cast<double>(x), static_cast<double>(y)});
+    const int left = static_cast<int>(std::floor(p.x));
+    const int front = static_cast<int>(std::floor(p.y));
+    const double right_share = p.x - left;
+    const double back_share = p.y - front;
+    for (int i = 0; i < 2; ++i) {
+      for (int j = 0; j < 2; ++j) {
+        const double weight = (i == 1 ? right_share : 1 - right_share) * (j == 1 ? back_share : 1 - back_share);
+        if (weight == 0) {
+          continue;
+        }
+        of.shares[of.count++] = {nearest(left + i, front + j, z), weight};
+      }
+    }
+    return of;
+  }
+  [[nodiscard]] std::array<int, 3> nearest(int x, int y, int z) const noexcept {
+    const auto fits = [&](int a, int b) {
+      return a >= 0 && a < box_.size[0] && b >= 0 && b < box_.size[1] && at(a, b, z).kind != site_kind::image;
+    };
+    if (fits(x, y)) {
+      return {x, y, z};
+    }
+    const vec2<double> p = inside({static_cast<double>(x), static_cast<double>(y)});
+    std::array<int, 3> best{x, y, z};
+    double least = -1;
+    for (int a = static_cast<int>(std::floor(p.x)) - 1; a <= static_cast<int>(std::floor(p.x)) + 2; ++a) {
+      for (int b = static_cast<int>(std::floor(p.y)) - 1; b <= static_cast<int>(std::floor(p.y)) + 2; ++b) {
+        const vec2<double> d{a - p.x, b - p.y};
+        if (fits(a, b) && (least < 0 || dot(d, d) < least)) {
+          least = dot(d, d);
+          best = {a, b, z};
+        }
+      }
+    }
+    return best;
+  }
+
+  throat_resolution resolution_;
+  lattice_box box_;
+  double middle_ = 0;
+  std::array<grain_section, 3> grains_;
+  std::array<prism_side, 3> sides_{};
+};
+
+}  // namespace lbm
+}  // namespace tetrapore::inline TETRAPORE_ABI
