@@ -77,8 +77,9 @@ class site_map {
     [[nodiscard]] image_point operator()(int, int, int) const noexcept { return {}; }
   };
 
-  /// `kind(x, y, z)` says what stands where, `image(x, y, z)` what the mirrored point of an image shows. Throws parameter_error for a box without fluid, with more nodes than an
-  /// index holds, or periodic on one side of an axis only.
+  /// `kind(x, y, z)` says what stands where, `image(x, y, z)` what the mirrored point of an image shows. Throws
+  /// parameter_error for a box without fluid, with more nodes than an index holds, or periodic on one side of an axis
+  /// only.
   template <class Kind, class Image = no_images>
     requires std::convertible_to<std::invoke_result_t<Kind&, int, int, int>, site> &&
              std::convertible_to<std::invoke_result_t<Image&, int, int, int>, image_point>

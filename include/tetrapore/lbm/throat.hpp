@@ -161,8 +161,8 @@ class throat_on_lattice {
     return p;
   }
 
-  /// Bilinear in the plane, whose mirrors stand upright. A corner that is itself beyond a mirror is replaced by the node
-  /// next to its own mirrored point.
+  /// Bilinear in the plane, whose mirrors stand upright. A corner that is itself beyond a mirror is replaced by the
+  /// node next to its own mirrored point.
   template <lattice L>
   [[nodiscard]] typename site_map<L>::image_point image(int x, int y, int z) const noexcept {
     typename site_map<L>::image_point of;
