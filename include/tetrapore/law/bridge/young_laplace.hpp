@@ -10,15 +10,16 @@ namespace tetrapore::inline TETRAPORE_ABI {
 
 /// The bridge between two wetted surfaces that solves the equation of Young and Laplace without gravity: two spheres of
 /// any radii, or a sphere and a plane, apart, in contact or overlapping, of a given volume or at a given suction.
-/// Of all profiles the stable one that comes, as the gap widens, from the bridge at contact. `Nodes` is half the order
-/// of the quadrature; next to a fold twice as many are used.
+/// Of all profiles the stable one that comes, as the gap widens, from the bridge at contact; of so much liquid that it
+/// would close over a grain there, from the one that neither pulls nor pushes. `Nodes` is half the order of the
+/// quadrature; next to a fold twice as many are used.
 ///
 /// Beyond the fold: `ruptured`. An equal pair (radii and angles) whose liquid slides to one side before: `lopsided`, at
-/// any gap from there on. Too little suction, or a pair pressed together with too much liquid: `flooded`. How the gap
-/// or the value came to be does not matter; a warm state changes the time, never the bridge. Where the surfaces
-/// overlap, the volume is that of the profile less both caps, so that their common lens counts twice, and the force is
-/// that of the whole neck, so that the suction counts on the solid disc too: for grains that are pressed together take
-/// held_at_contact (closed_form.hpp).
+/// any gap from there on. Too little suction (over a plane at θ = 0 any of 0 and less), or a pair too near for so much
+/// liquid: `flooded`. How the gap or the value came to be does not matter; a warm state changes the time, never the
+/// bridge. Where the surfaces overlap, the volume is that of the profile less both caps, so that their common lens
+/// counts twice, and the force is that of the whole neck, so that the suction counts on the solid disc too: for grains
+/// that are pressed together take held_at_contact (closed_form.hpp).
 /// \par Units   surface tension [N/m], angles [rad], else SI
 /// \par Domain  0 ≤ θ < 90° on either surface (angle k on the surface of radius k); gap > −R; any volume or suction.
 ///              float, double, long double; float computes in double
@@ -30,8 +31,14 @@ namespace tetrapore::inline TETRAPORE_ABI {
 ///                Stability agrees with finite elements on 2,000 bridges. long double with 20 nodes 1e-17 and 32 κ;
 ///                float 6e-8. On 10⁵ random pairs (radii 1e-4 to a plane, angles to 89.9°) every request at a volume
 ///                was answered, and all but 1 in 10⁴ at a suction, those at which two curves of bridges all but cross
-///                near a cylinder (`not_converged`). On 10⁶ random time steps warm and cold solve never differed in
-///                status, in force by 0.68 of twice the above; work around closed cycles vanished to 1e-13
+///                near a cylinder (`not_converged`). Rupture gaps of volumes up to 1e4 R³: 4 of 20,000 not found
+///                (`not_converged`, all above 6,000 R³). Much liquid, 0.3 to 150 R³ or k down to −1.5 / R: worst 0.61
+///                of that against 40 nodes in long double on 6,200 random bridges, none with another status; up to 1e-6
+///                of the volume at which liquid closes over the grains worst 0.82 of 1e-12 and 16 κ, κ of a rounding of
+///                that whole ball. A bridge that is gone is told by a bound (march.hpp: out_of_reach) in a twentieth of
+///                the time of one that is there, unless the gap is within some 4 to 50 % of the widest: then by a
+///                march, in 20 times as much. On 10⁶ random time steps warm and cold solve never differed in status, in
+///                force by 0.68 of twice the above; work around closed cycles vanished to 1e-13
 /// \par Source  Chareyre et al., EPJ Web Conf. 140, 09027 (2017), §2.3, Eq. (4); profiles of Delaunay (profile.hpp);
 ///              stability by Jacobi's field, derived here (solve_profile.hpp)
 template <int Nodes = 10>
