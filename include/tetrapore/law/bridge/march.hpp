@@ -492,7 +492,7 @@ template <std::floating_point T>
   const T cube = d.gap * d.gap * d.gap;
   const T a = T(2) * d.value;
   const T wetting = pair.side[0].cosine + pair.side[1].cosine;
-  if (!(d.gap > T(0)) || !(by_volume ? cube > d.value : a * d.gap > T(0.3) * wetting)) {
+  if (!(d.gap > T(0)) || !(by_volume ? cube > d.value : a * d.gap > T(0.15) * wetting)) {
     return false;  // near enough to be worth a try
   }
   if (by_volume) {
