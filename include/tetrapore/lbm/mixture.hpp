@@ -57,16 +57,19 @@ struct mixture {
     return detail::constant<R>(reference[component]) + excess_of(f);
   }
 
-  /// What streams into a node turns into what leaves it. `seen(b, i)` is ψ of component b at x + c_i; b and i come as
-  /// constants.
-  template <class R, class Seen>
-  [[gnu::always_inline]] void collide(R (&f)[Components][directions], Seen seen) const noexcept {
+  /// What streams into a node turns into what leaves it: `take(c, i)` is the population of component c that arrives in
+  /// direction i, `seen(c, i)` its ψ at x + c_i, `give(c, i, f)` gets what leaves in direction i; c and i come as
+  /// constants. Populations are taken twice, for their moments and to relax: all at once would
+  /// not fit in the registers.
+  template <class R, class Take, class Seen, class Give>
+  [[gnu::always_inline]] void collide(Take take, Seen seen, Give give) const noexcept {
     node_motion<R, Components> m;
     R excess[Components];
-    prepare(f, seen, m, excess);
+    prepare(take, seen, m, excess);
+    asm volatile("" ::: "memory");  // else a compiler keeps the first taking, on the stack
     R u[Components][3];
     forcing.template prepare<axes>(m, u);
-    detail::repeat<count>([&]<int C>(detail::number<C>) TETRAPORE_INLINE {
+    detail::repeat<count>([&]<int C>(detail::number<C> c) TETRAPORE_INLINE {
       relaxation_target<R> t;
       t.excess = excess[C];
       t.rho = m.rho[C];
@@ -74,12 +77,15 @@ struct mixture {
         t.momentum[A] = m.momentum[C][A];
         t.velocity[A] = u[C][A];
       });
+      R f[directions];
+      detail::repeat<sites>([&]<int I>(detail::number<I> i) TETRAPORE_INLINE { f[I] = take(c, i); });
       const Collision& how = collisions[static_cast<std::size_t>(C)];
       if constexpr (Forcing::carries_source) {
-        how.template relax<Lattice>(f[C], t, forcing.template source<axes>(m, C, u[C]));
+        how.template relax<Lattice>(f, t, forcing.template source<axes>(m, C, u[C]));
       } else {
-        how.template relax<Lattice>(f[C], t, no_source{});
+        how.template relax<Lattice>(f, t, no_source{});
       }
+      detail::repeat<sites>([&]<int I>(detail::number<I> i) TETRAPORE_INLINE { give(c, i, f[I]); });
     });
   }
 
@@ -131,7 +137,8 @@ struct mixture {
   void flow(const R (&f)[Components][directions], Seen seen, R (&velocity)[3]) const noexcept {
     node_motion<R, Components> m;
     R excess[Components];
-    prepare(f, seen, m, excess);
+    prepare([&]<int C, int I>(detail::number<C>, detail::number<I>) TETRAPORE_INLINE { return f[C][I]; }, seen, m,
+            excess);
     R mass = m.rho[0];
     for (std::size_t c = 1; c < Components; ++c) {
       mass = mass + m.rho[c];
@@ -163,13 +170,16 @@ struct mixture {
  private:
   static constexpr int axes = Lattice::dimensions;
   static constexpr int count = static_cast<int>(Components);
+  static constexpr int sites = static_cast<int>(directions);
 
-  template <class R, class Seen>
-  [[gnu::always_inline]] void prepare(const R (&f)[Components][directions], Seen seen, node_motion<R, Components>& m,
+  template <class R, class Take, class Seen>
+  [[gnu::always_inline]] void prepare(Take take, Seen seen, node_motion<R, Components>& m,
                                       R (&excess)[Components]) const noexcept {
     R slope[Components][3];  // Σ w ψ(x + c) c
     detail::repeat<count>([&]<int C>(detail::number<C> c) TETRAPORE_INLINE {
-      excess[C] = excess_of(f[C]);
+      R f[directions];
+      detail::repeat<sites>([&]<int I>(detail::number<I> i) TETRAPORE_INLINE { f[I] = take(c, i); });
+      excess[C] = excess_of(f);
       m.rho[C] = detail::constant<R>(reference[static_cast<std::size_t>(C)]) + excess[C];
       m.rate[C] = detail::constant<R>(collisions[static_cast<std::size_t>(C)].rate());
       R step[pairs<Lattice>];
@@ -178,7 +188,7 @@ struct mixture {
                   (seen(c, detail::number<2 * K + 1>{}) - seen(c, detail::number<2 * K + 2>{}));
       });
       detail::repeat<axes>([&]<int A>(detail::number<A>) TETRAPORE_INLINE {
-        m.momentum[C][A] = detail::first_moment<Lattice, A>(f[C]);
+        m.momentum[C][A] = detail::first_moment<Lattice, A>(f);
         slope[C][A] = detail::sum_over_pairs<Lattice, R>(
             []<int K>(detail::number<K>) TETRAPORE_INLINE { return detail::along<Lattice>(K, A) != 0; },
             [&]<int K>(detail::number<K>)

@@ -8,19 +8,25 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <new>
 #include <numeric>
 #include <span>
 #include <vector>
 
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
+
 /// \file
 /// The loop over nodes: how populations are stored, streamed and handed to the mixture.
 ///
-/// Nodes go in batches of as many as a register holds. Where consecutive nodes see fluid alone in the same places, a
-/// batch is a first node and one offset for each direction; the rest (at walls, mirrors, the ends of runs) go by an
-/// index for each node and direction. ψ of a plane is worked out just before the planes beside it are updated, so that
-/// populations pass through the cache once.
+/// Nodes go in batches of as many as a register holds: consecutive nodes, a first one and an offset for each direction.
+/// Where a node of a batch streams elsewhere or sees something else (walls, mirrors, the ends of rows), that is an
+/// exception of the batch: the direction goes through a small buffer, in which the exceptions are replaced one by one.
+/// All batches run through the same code. ψ of a plane is worked out just before the planes beside it are updated, so
+/// that populations pass through the cache once.
 
 namespace tetrapore::inline TETRAPORE_ABI {
 namespace lbm {
@@ -33,7 +39,9 @@ enum class storage {
 
 namespace detail {
 
-/// Numbers that begin on a cache line.
+inline constexpr std::size_t cache_line = 64;
+
+/// Numbers that begin on a cache line; many of them on huge pages, where the system has some.
 template <class T>
 struct cache_aligned {
   using value_type = T;
@@ -41,10 +49,22 @@ struct cache_aligned {
   template <class U>
   constexpr explicit cache_aligned(const cache_aligned<U>&) noexcept {}
   [[nodiscard]] T* allocate(std::size_t n) {
-    return static_cast<T*>(::operator new(n * sizeof(T), std::align_val_t{64}));
+    void* p = ::operator new(n * sizeof(T), alignment(n));
+#if defined(__linux__)
+    if (n * sizeof(T) >= huge_page) {
+      madvise(p, n * sizeof(T), MADV_HUGEPAGE);  // advice: the result changes speed alone
+    }
+#endif
+    return static_cast<T*>(p);
   }
-  void deallocate(T* p, std::size_t) noexcept { ::operator delete(p, std::align_val_t{64}); }
+  void deallocate(T* p, std::size_t n) noexcept { ::operator delete(p, alignment(n)); }
   [[nodiscard]] friend bool operator==(const cache_aligned&, const cache_aligned&) noexcept { return true; }
+
+ private:
+  static constexpr std::size_t huge_page = std::size_t{1} << 21U;
+  [[nodiscard]] static constexpr std::align_val_t alignment(std::size_t n) noexcept {
+    return std::align_val_t{n * sizeof(T) >= huge_page ? huge_page : cache_line};
+  }
 };
 template <class T>
 using aligned_vector = std::vector<T, cache_aligned<T>>;
@@ -72,15 +92,15 @@ class simulation {
         throw parameter_error("collision", "tau = " + short_number(c.tau), "more than 0.5");
       }
     }
-    stride_ = (map_.size() + 2 * width - 1) / width * width;  // at least one node for idle lanes
     idle_ = static_cast<std::int32_t>(map_.size());
-    stride_ += 16;  // directions do not all begin in the same set of the cache
+    stride_ = stride_for(map_.size());
+    f_.assign(components * directions * stride_ + beyond, T(0));
+    if constexpr (Storage == storage::two_lattices) {
+      next_.assign(f_.size(), T(0));
+    }
     for (std::size_t c = 0; c < components; ++c) {
-      f_[c].assign(directions * stride_, T(0));
-      if constexpr (Storage == storage::two_lattices) {
-        next_[c].assign(directions * stride_, T(0));
-      }
-      psi_[c].assign(stride_ + tags + map_.images().size(), static_cast<T>(model_.potential(model_.reference[c])));
+      psi_[c].assign(beyond + stride_ + tags + map_.images().size(),
+                     static_cast<T>(model_.potential(model_.reference[c])));
     }
     walls_.fill(model_.reference);
     reservoirs_.fill(model_.reference);
@@ -96,7 +116,7 @@ class simulation {
   void set_wall(std::uint8_t tag, const densities& rho) {
     walls_[tag] = rho;
     for (std::size_t c = 0; c < components; ++c) {
-      psi_[c][stride_ + tag] = static_cast<T>(model_.potential(rho[c]));
+      psi(c)[stride_ + tag] = static_cast<T>(model_.potential(rho[c]));
     }
   }
   void set_reservoir(std::uint8_t tag, const densities& rho) { reservoirs_[tag] = rho; }
@@ -145,10 +165,10 @@ class simulation {
 
   /// What arrives at a node in direction i, less weight × reference density.
   [[nodiscard]] T& population(std::size_t component, std::size_t node, std::size_t i) noexcept {
-    return f_[component][where(node, i)];
+    return f_[component * directions * stride_ + where(node, i)];
   }
   [[nodiscard]] const T& population(std::size_t component, std::size_t node, std::size_t i) const noexcept {
-    return f_[component][where(node, i)];
+    return f_[component * directions * stride_ + where(node, i)];
   }
 
   [[nodiscard]] double density(std::size_t component, std::size_t node) const noexcept {
@@ -208,26 +228,38 @@ class simulation {
   static constexpr std::size_t width = static_cast<std::size_t>(Lanes);
   static constexpr int count = static_cast<int>(directions);
   static constexpr int parts = static_cast<int>(components);
+  static constexpr std::uint32_t all_lanes = static_cast<std::uint32_t>((std::uint64_t{1} << width) - 1);
   using number = pack<T, Lanes>;
   using offsets = std::array<std::int32_t, directions>;
 
-  /// Consecutive nodes that see fluid in the same places.
+  static constexpr std::size_t beyond = std::max<std::size_t>(width, detail::cache_line / sizeof(T));
+  static_assert(Lanes >= 1 && Lanes <= 32 && directions <= 32, "a bit of 32 for each node and direction of a batch");
+
+  /// Batches one behind the other without exceptions, or one with them.
   struct run_of_batches {
     std::int32_t first;
     std::int32_t batches;
-    std::int32_t table;  ///< of `tables_`: the neighbour in direction k is a node + this
+    std::int32_t table;         ///< of `tables_`: the neighbour in direction k is a node + this
+    std::uint32_t used;         ///< a bit for each lane whose node is updated
+    std::uint32_t streams;      ///< a bit for each direction in which some node's populations go elsewhere
+    std::uint32_t sees;         ///< the same of ψ
+    std::size_t exceptions[2];  ///< of `exceptions_`: from, to
   };
-  /// Nodes each with links of its own.
-  struct loose_batch {
+  struct exception {
+    std::int32_t gate;  ///< where what leaves arrives: slot × stride + node
+    std::int32_t seen;  ///< the index of ψ
+    std::uint8_t direction;
+    std::uint8_t lane;
+  };
+  /// Nodes of a reservoir.
+  struct held_batch {
     std::int32_t node[width];
-    std::int32_t gate[directions][width];  ///< where what leaves in direction k arrives: slot × stride + node
-    std::int32_t seen[directions][width];  ///< the index of ψ in direction k
-    bool reservoir;
+    std::int32_t gate[directions][width];
     std::uint8_t tag;
   };
   struct plane {
     std::size_t first_run, last_run;
-    std::size_t first_loose, last_loose;
+    std::size_t first_held, last_held;
     std::size_t first_image, last_image;  ///< which this plane is the first to see
     std::size_t needs;                    ///< how many planes must show their ψ before this one is updated
   };
@@ -257,42 +289,35 @@ class simulation {
     return s.kind == site_kind::reservoir ? reservoirs_[s.tag][c] : density(c, node);
   }
 
+  /// Lines of 64 bytes between the slots of a node are 27 + a multiple of 64: no two slots share a set of the cache.
+  [[nodiscard]] static std::size_t stride_for(std::size_t nodes) noexcept {
+    constexpr std::size_t per_line = detail::cache_line / sizeof(T);
+    const std::size_t lines = (nodes + 2 * beyond) / per_line + 1;
+    return (lines + (27 + 64 - lines % 64) % 64) * per_line;
+  }
+  [[nodiscard]] T* psi(std::size_t c) noexcept { return psi_[c].data() + beyond; }
+  [[nodiscard]] static T* slots(detail::aligned_vector<T>& f, std::size_t stride, std::size_t c) noexcept {
+    return f.data() + c * directions * stride;
+  }
+
   void make_batches() {
+    std::map<offsets, std::int32_t> known;
     for (std::size_t x = 0; x < map_.plane_count(); ++x) {
-      plane p{runs_.size(), 0, loose_.size(), 0, 0, 0, std::min(x + 2, map_.plane_count())};
-      auto n = static_cast<std::size_t>(map_.plane_begin(x));
+      plane p{runs_.size(), 0, held_.size(), 0, 0, 0, std::min(x + 2, map_.plane_count())};
       const auto end = static_cast<std::size_t>(map_.plane_begin(x + 1));
-      std::vector<std::int32_t> rest;
       std::vector<std::int32_t> held;
+      auto n = static_cast<std::size_t>(map_.plane_begin(x));
       while (n < end) {
-        offsets table;
         if (map_.at(n).kind == site_kind::reservoir) {
           held.push_back(static_cast<std::int32_t>(n++));
           continue;
         }
-        if (!regular(n, table)) {
-          rest.push_back(static_cast<std::int32_t>(n++));
-          continue;
-        }
-        std::size_t last = n + 1;
-        offsets other;
-        while (last < end && map_.at(last).kind == site_kind::fluid && regular(last, other) && other == table) {
-          ++last;
-        }
-        const auto batches = static_cast<std::int32_t>((last - n) / width);
-        if (batches > 0) {
-          if (tables_.empty() || tables_.back() != table) {
-            tables_.push_back(table);
+        add_batch(n, end, p.first_run, known);
+        for (const std::size_t upto = std::min(n + width, end); n < upto; ++n) {
+          if (map_.at(n).kind == site_kind::reservoir) {
+            held.push_back(static_cast<std::int32_t>(n));
           }
-          runs_.push_back({static_cast<std::int32_t>(n), batches, static_cast<std::int32_t>(tables_.size()) - 1});
-          n += static_cast<std::size_t>(batches) * width;
         }
-        while (n < last) {
-          rest.push_back(static_cast<std::int32_t>(n++));
-        }
-      }
-      for (std::size_t k = 0; k < rest.size(); k += width) {
-        loose_.push_back(batch_of(std::span(rest).subspan(k, std::min(width, rest.size() - k))));
       }
       std::stable_sort(held.begin(), held.end(), [&](std::int32_t a, std::int32_t b) {
         return map_.at(static_cast<std::size_t>(a)).tag < map_.at(static_cast<std::size_t>(b)).tag;
@@ -303,15 +328,78 @@ class simulation {
         while (upto < held.size() && upto - k < width && map_.at(static_cast<std::size_t>(held[upto])).tag == tag) {
           ++upto;
         }
-        loose_.push_back(batch_of(std::span(held).subspan(k, upto - k)));
-        loose_.back().reservoir = true;
-        loose_.back().tag = tag;
+        held_.push_back(held_by(tag, std::span(held).subspan(k, upto - k)));
         k = upto;
       }
       p.last_run = runs_.size();
-      p.last_loose = loose_.size();
-      batches_.push_back(p);
+      p.last_held = held_.size();
+      planes_.push_back(p);
     }
+  }
+
+  /// The batch that begins at a node of a plane.
+  void add_batch(std::size_t n, std::size_t end, std::size_t first_run, std::map<offsets, std::int32_t>& known) {
+    run_of_batches b{static_cast<std::int32_t>(n), 1, 0, 0, 0, 0, {exceptions_.size(), 0}};
+    for (std::size_t lane = 0; lane < width; ++lane) {
+      if (n + lane < end && map_.at(n + lane).kind != site_kind::reservoir) {
+        b.used |= 1U << lane;
+      }
+    }
+    offsets by{};
+    for (std::size_t k = 0; k < directions; ++k) {
+      typename site_map<lattice_type>::link to[width];
+      std::int32_t seen[width];
+      std::size_t most = 0;  // the offset of most nodes is that of the batch
+      for (std::size_t lane = 0; lane < width; ++lane) {
+        if ((b.used >> lane & 1U) != 0) {
+          to[lane] = map_.leaving(n + lane, static_cast<int>(k));
+          const auto s = map_.seen(n + lane, static_cast<int>(k));
+          seen[lane] = slot_of(s.node, s.wall, s.image);
+          std::size_t alike = 0;
+          for (std::size_t other = 0; other <= lane; ++other) {
+            alike += (b.used >> other & 1U) != 0 && to[lane].as == k && to[other].as == k &&
+                             to[lane].to - to[other].to == static_cast<std::int32_t>(lane - other)
+                         ? 1U
+                         : 0U;
+          }
+          if (alike > most) {
+            most = alike;
+            by[k] = to[lane].to - static_cast<std::int32_t>(n + lane);
+          }
+        }
+      }
+      for (std::size_t lane = 0; lane < width; ++lane) {
+        if ((b.used >> lane & 1U) == 0) {
+          continue;
+        }
+        const std::int32_t there = static_cast<std::int32_t>(n + lane) + by[k];
+        const bool elsewhere = to[lane].as != k || to[lane].to != there;
+        b.streams |= elsewhere ? 1U << k : 0U;
+        b.sees |= seen[lane] != there ? 1U << k : 0U;
+        if (elsewhere || seen[lane] != there) {
+          exceptions_.push_back(
+              {static_cast<std::int32_t>(to[lane].as * stride_ + static_cast<std::size_t>(to[lane].to)), seen[lane],
+               static_cast<std::uint8_t>(k), static_cast<std::uint8_t>(lane)});
+        }
+      }
+    }
+    b.exceptions[1] = exceptions_.size();
+    b.table = known.try_emplace(by, static_cast<std::int32_t>(tables_.size())).first->second;
+    if (static_cast<std::size_t>(b.table) == tables_.size()) {
+      tables_.push_back(by);
+    }
+    if (plain(b) && runs_.size() > first_run) {
+      run_of_batches& last = runs_.back();
+      if (plain(last) && last.table == b.table &&
+          last.first + last.batches * static_cast<std::int32_t>(width) == b.first) {
+        ++last.batches;
+        return;
+      }
+    }
+    runs_.push_back(b);
+  }
+  [[nodiscard]] static bool plain(const run_of_batches& b) noexcept {
+    return b.used == all_lanes && b.exceptions[0] == b.exceptions[1];
   }
 
   /// Images in the order of the first plane that sees them.
@@ -323,8 +411,8 @@ class simulation {
                      [&](std::size_t a, std::size_t b) { return all[a].first_user < all[b].first_user; });
     std::size_t next = 0;
     std::size_t needs = 0;
-    for (std::size_t x = 0; x < batches_.size(); ++x) {
-      batches_[x].first_image = next;
+    for (std::size_t x = 0; x < planes_.size(); ++x) {
+      planes_[x].first_image = next;
       for (; next < order.size() && all[order[next]].first_user == static_cast<int>(x); ++next) {
         const auto& image = all[order[next]];
         image_slots slots{};
@@ -337,8 +425,8 @@ class simulation {
         images_.push_back(slots);
         needs = std::max(needs, static_cast<std::size_t>(image.last_plane) + 1);
       }
-      batches_[x].last_image = next;
-      batches_[x].needs = std::max(batches_[x].needs, needs);
+      planes_[x].last_image = next;
+      planes_[x].needs = std::max(planes_[x].needs, needs);
     }
   }
 
@@ -360,35 +448,16 @@ class simulation {
     return sum;
   }
 
-  /// Whether all that leaves a node goes on as it is; then by which offsets.
-  [[nodiscard]] bool regular(std::size_t n, offsets& by) const noexcept {
-    for (std::size_t k = 0; k < directions; ++k) {
-      const auto to = map_.leaving(n, static_cast<int>(k));
-      if (to.as != k) {
-        return false;
-      }
-      by[k] = to.to - static_cast<std::int32_t>(n);
-    }
-    return true;
-  }
-
-  [[nodiscard]] loose_batch batch_of(std::span<const std::int32_t> nodes) const {
-    loose_batch b{};
+  [[nodiscard]] held_batch held_by(std::uint8_t tag, std::span<const std::int32_t> nodes) const {
+    held_batch b{};
+    b.tag = tag;
     for (std::size_t lane = 0; lane < width; ++lane) {
       const bool used = lane < nodes.size();
-      const std::int32_t node = used ? nodes[lane] : idle_;
-      b.node[lane] = node;
-      for (std::size_t k = 0; k < directions; ++k) {
-        if (!used) {  // its own gate, so that no lane writes where another reads
-          b.gate[k][lane] = static_cast<std::int32_t>(k * stride_ + static_cast<std::size_t>(idle_));
-          b.seen[k][lane] = idle_;
-          continue;
-        }
-        const auto n = static_cast<std::size_t>(node);
-        const auto to = map_.leaving(n, static_cast<int>(k));
+      b.node[lane] = used ? nodes[lane] : idle_;
+      for (std::size_t k = 0; k < directions; ++k) {  // an idle lane's own gate: none writes where another reads
+        const auto to = used ? map_.leaving(static_cast<std::size_t>(nodes[lane]), static_cast<int>(k))
+                             : typename site_map<lattice_type>::link{idle_, static_cast<std::uint8_t>(k)};
         b.gate[k][lane] = static_cast<std::int32_t>(to.as * stride_ + static_cast<std::size_t>(to.to));
-        const auto s = map_.seen(n, static_cast<int>(k));
-        b.seen[k][lane] = slot_of(s.node, s.wall, s.image);
       }
     }
     return b;
@@ -396,19 +465,19 @@ class simulation {
 
   template <stream S>
   void sweep() {
-    const std::size_t planes = batches_.size();
+    const std::size_t planes = planes_.size();
     const bool wrap = map_.box().low[0] == face_kind::periodic;
     if (wrap) {
       prepare<S>(planes - 1);
     }
     std::size_t ready = 0;
     for (std::size_t x = 0; x < planes; ++x) {
-      for (; ready < batches_[x].needs; ++ready) {
+      for (; ready < planes_[x].needs; ++ready) {
         if (!(wrap && ready + 1 == planes)) {
           prepare<S>(ready);
         }
       }
-      show_images(batches_[x]);
+      show_images(planes_[x]);
       update<S>(x);
     }
   }
@@ -419,84 +488,110 @@ class simulation {
       for (std::size_t c = 0; c < components; ++c) {
         T sum(0);
         for (std::size_t s = 0; s < image.count; ++s) {
-          sum += image.weight[s] * psi_[c][static_cast<std::size_t>(image.from[s])];
+          sum += image.weight[s] * psi(c)[static_cast<std::size_t>(image.from[s])];
         }
-        psi_[c][static_cast<std::size_t>(image.slot)] = sum;
+        psi(c)[static_cast<std::size_t>(image.slot)] = sum;
       }
     }
   }
 
-  // what arrives in direction i, and where what leaves in direction k goes: of a run
+  static constexpr std::size_t reversed(std::size_t i) noexcept {
+    return static_cast<std::size_t>(opposite(static_cast<int>(i)));
+  }
+
+  /// Where the numbers of the first batch of a run begin, for each component and direction.
+  struct ports {
+    const T* from[components][directions];
+    T* to[components][directions];
+    const T* seen[components][directions];
+  };
+  struct buffers {
+    alignas(detail::cache_line) T carried[components][directions][width];
+    alignas(detail::cache_line) T seen[components][directions][width];
+  };
+
+  /// The place of what leaves in direction k, in the slots of one component.
   template <stream S>
-  [[nodiscard, gnu::always_inline]] const T* arrival(const T* f, std::size_t i, std::size_t n,
-                                                     const offsets& by) const noexcept {
-    const auto back = static_cast<std::size_t>(opposite(static_cast<int>(i)));
+  [[nodiscard, gnu::always_inline]] std::ptrdiff_t departure(std::size_t k, std::int32_t n,
+                                                             const offsets& by) const noexcept {
+    const auto stride = static_cast<std::ptrdiff_t>(stride_);
     if constexpr (S == stream::turn) {
-      return f + i * stride_ + n;
+      return static_cast<std::ptrdiff_t>(reversed(k)) * stride + n;
+    } else if constexpr (S == stream::exchange) {
+      return static_cast<std::ptrdiff_t>(k) * stride + n + by[k];
     } else {
-      return f + (S == stream::exchange ? back : i) * stride_ + n + by[back];
+      return static_cast<std::ptrdiff_t>(k) * stride + n;
     }
   }
+  /// The place of what arrives in direction i.
   template <stream S>
-  [[nodiscard, gnu::always_inline]] T* departure(T* f, std::size_t k, std::size_t n, const offsets& by) const noexcept {
-    if constexpr (S == stream::turn) {
-      return f + static_cast<std::size_t>(opposite(static_cast<int>(k))) * stride_ + n;
-    } else if constexpr (S == stream::exchange) {
-      return f + k * stride_ + n + by[k];
+  [[nodiscard, gnu::always_inline]] std::ptrdiff_t arrival(std::size_t i, std::int32_t n,
+                                                           const offsets& by) const noexcept {
+    if constexpr (S == stream::pull) {
+      return static_cast<std::ptrdiff_t>(i * stride_) + n + by[reversed(i)];
     } else {
-      return f + k * stride_ + n;
+      return departure<S>(reversed(i), n, by);  // populations change places in pairs
     }
   }
-  // the same of a lane of a loose batch
+  /// The place of what arrives against what leaves through a gate.
   template <stream S>
-  [[nodiscard, gnu::always_inline]] std::size_t arrival(std::size_t i, const loose_batch& b,
-                                                        std::size_t lane) const noexcept {
-    const auto back = static_cast<std::size_t>(opposite(static_cast<int>(i)));
-    if constexpr (S == stream::turn) {
-      return i * stride_ + static_cast<std::size_t>(b.node[lane]);
-    } else if constexpr (S == stream::exchange) {
-      return static_cast<std::size_t>(b.gate[back][lane]);
-    } else {  // what leaves against i arrives there; what left there against that arrives here
-      const auto gate = static_cast<std::size_t>(b.gate[back][lane]);
-      return static_cast<std::size_t>(opposite(static_cast<int>(gate / stride_))) * stride_ + gate % stride_;
+  [[nodiscard, gnu::always_inline]] std::size_t against(std::int32_t gate) const noexcept {
+    const auto g = static_cast<std::size_t>(gate);
+    return S == stream::exchange ? g : reversed(g / stride_) * stride_ + g % stride_;
+  }
+
+  /// What arrives in one component, with the directions that have exceptions drawn through a buffer.
+  template <stream S>
+  void receive(const run_of_batches& run, std::size_t c, const T* (&from)[directions], T (&buffer)[directions][width]) {
+    const offsets& by = tables_[static_cast<std::size_t>(run.table)];
+    const T* f = slots(f_, stride_, c);
+    for (std::size_t i = 0; i < directions; ++i) {
+      from[i] = f + arrival<S>(i, run.first, by);
+    }
+    if (S == stream::turn || run.streams == 0) {
+      return;
+    }
+    for (std::size_t k = 0; k < directions; ++k) {
+      if ((run.streams >> k & 1U) != 0) {
+        number::load(from[reversed(k)]).store(buffer[k]);
+        from[reversed(k)] = buffer[k];
+      }
+    }
+    for (std::size_t e = run.exceptions[0]; e < run.exceptions[1]; ++e) {
+      const exception& x = exceptions_[e];
+      buffer[x.direction][x.lane] = f[against<S>(x.gate)];
     }
   }
 
   template <stream S>
   void prepare(std::size_t x) {
-    const plane& p = batches_[x];
+    const plane& p = planes_[x];
+    const Model model = model_;
+    buffers b;
+    ports at;
     for (std::size_t c = 0; c < components; ++c) {
-      const T* f = f_[c].data();
-      T* psi = psi_[c].data();
+      T* const psi = this->psi(c);
       for (std::size_t r = p.first_run; r < p.last_run; ++r) {
         const run_of_batches& run = runs_[r];
-        const offsets by = tables_[static_cast<std::size_t>(run.table)];
-        auto n = static_cast<std::size_t>(run.first);
-        for (std::int32_t k = 0; k < run.batches; ++k, n += width) {
+        receive<S>(run, c, at.from[0], b.carried[0]);
+        T* const shown = run.used == all_lanes ? psi + run.first : b.seen[0][0];
+        const std::ptrdiff_t end = static_cast<std::ptrdiff_t>(run.batches) * Lanes;
+        for (std::ptrdiff_t n = 0; n < end; n += Lanes) {
           number g[directions];
           detail::repeat<count>([&]<int I>(detail::number<I>)
-                                    TETRAPORE_INLINE { g[I] = number::load(arrival<S>(f, I, n, by)); });
-          model_.potential(model_.density_of(g, c)).store(psi + n);
+                                    TETRAPORE_INLINE { g[I] = number::load(at.from[0][I] + n); });
+          model.potential(model.density_of(g, c)).store(shown + n);
+        }
+        for (std::size_t lane = 0; run.used != all_lanes && lane < width; ++lane) {
+          if ((run.used >> lane & 1U) != 0) {
+            psi[static_cast<std::size_t>(run.first) + lane] = shown[lane];
+          }
         }
       }
-      for (std::size_t l = p.first_loose; l < p.last_loose; ++l) {
-        const loose_batch& b = loose_[l];
-        if (b.reservoir) {
-          const T value = static_cast<T>(model_.potential(reservoirs_[b.tag][c]));
-          for (std::size_t lane = 0; lane < width; ++lane) {
-            psi[b.node[lane]] = value;
-          }
-          continue;
-        }
-        number g[directions];
-        for (std::size_t i = 0; i < directions; ++i) {
-          for (std::size_t lane = 0; lane < width; ++lane) {
-            g[i].v[lane] = f[arrival<S>(i, b, lane)];
-          }
-        }
-        const number shown = model_.potential(model_.density_of(g, c));
-        for (std::size_t lane = 0; lane < width; ++lane) {
-          psi[b.node[lane]] = shown.v[lane];
+      for (std::size_t h = p.first_held; h < p.last_held; ++h) {
+        const T value = static_cast<T>(model.potential(reservoirs_[held_[h].tag][c]));
+        for (const std::int32_t node : held_[h].node) {
+          psi[node] = value;
         }
       }
     }
@@ -504,66 +599,123 @@ class simulation {
 
   template <stream S>
   void update(std::size_t x) {
-    const plane& p = batches_[x];
-    const auto target = [&](std::size_t c) { return S == stream::pull ? next_[c].data() : f_[c].data(); };
+    const plane& p = planes_[x];
+    const Model model = model_;
+    auto& next = S == stream::pull ? next_ : f_;
+    buffers b;
+    ports at;
     for (std::size_t r = p.first_run; r < p.last_run; ++r) {
       const run_of_batches& run = runs_[r];
-      const offsets by = tables_[static_cast<std::size_t>(run.table)];
-      auto n = static_cast<std::size_t>(run.first);
-      for (std::int32_t k = 0; k < run.batches; ++k, n += width) {
-        number f[components][directions];
-        detail::repeat<parts>([&]<int C>(detail::number<C>) TETRAPORE_INLINE {
-          detail::repeat<count>([&]<int I>(detail::number<I>)
-                                    TETRAPORE_INLINE { f[C][I] = number::load(arrival<S>(f_[C].data(), I, n, by)); });
-        });
-        model_.collide(f, [&]<int C, int I>(detail::number<C>, detail::number<I>)
-                              TETRAPORE_INLINE { return number::load(psi_[C].data() + n + by[I]); });
-        detail::repeat<parts>([&]<int C>(detail::number<C>) TETRAPORE_INLINE {
-          T* to = target(C);
-          detail::repeat<count>([&]<int I>(detail::number<I>)
-                                    TETRAPORE_INLINE { f[C][I].store(departure<S>(to, I, n, by)); });
-        });
+      const offsets& by = tables_[static_cast<std::size_t>(run.table)];
+      const std::uint32_t kept = leaves_through_buffer<S>(run);
+      for (std::size_t c = 0; c < components; ++c) {
+        receive<S>(run, c, at.from[c], b.carried[c]);
+        const T* const psi = this->psi(c);
+        T* const f = slots(next, stride_, c);
+        for (std::size_t k = 0; k < directions; ++k) {
+          at.seen[c][k] = psi + run.first + by[k];
+          at.to[c][k] = (kept >> k & 1U) != 0 ? b.carried[c][k] : f + departure<S>(k, run.first, by);
+        }
+        if (run.sees != 0) {
+          see(run, psi, at.seen[c], b.seen[c]);
+        }
+      }
+      const std::ptrdiff_t end = static_cast<std::ptrdiff_t>(run.batches) * Lanes;
+      for (std::ptrdiff_t n = 0; n < end; n += Lanes) {
+        model.template collide<number>([&]<int C, int I>(detail::number<C>, detail::number<I>)
+                                           TETRAPORE_INLINE { return number::load(at.from[C][I] + n); },
+                                       [&]<int C, int I>(detail::number<C>, detail::number<I>)
+                                           TETRAPORE_INLINE { return number::load(at.seen[C][I] + n); },
+                                       [&]<int C, int I>(detail::number<C>, detail::number<I>, const number& value)
+                                           TETRAPORE_INLINE { value.store(at.to[C][I] + n); });
+      }
+      if (kept != 0) {
+        for (std::size_t c = 0; c < components; ++c) {
+          send<S>(run, kept, slots(next, stride_, c), b.carried[c]);
+        }
       }
     }
+    for (std::size_t h = p.first_held; h < p.last_held; ++h) {
+      hold<S>(held_[h], next);
+    }
+  }
+
+  /// A bit for each direction in which not all lanes of a register may be written where they stand.
+  template <stream S>
+  [[nodiscard]] static std::uint32_t leaves_through_buffer(const run_of_batches& run) noexcept {
+    constexpr auto all = static_cast<std::uint32_t>((std::uint64_t{1} << directions) - 1);
+    return run.used != all_lanes ? all : S == stream::exchange ? run.streams : 0;
+  }
+
+  void see(const run_of_batches& run, const T* psi, const T* (&seen)[directions],
+           T (&buffer)[directions][width]) const noexcept {
+    for (std::size_t k = 0; k < directions; ++k) {
+      if ((run.sees >> k & 1U) != 0) {
+        number::load(seen[k]).store(buffer[k]);
+        seen[k] = buffer[k];
+      }
+    }
+    for (std::size_t e = run.exceptions[0]; e < run.exceptions[1]; ++e) {
+      const exception& x = exceptions_[e];
+      buffer[x.direction][x.lane] = psi[x.seen];
+    }
+  }
+
+  /// Buffers go where their lanes belong: first all but the exceptions, then these.
+  template <stream S>
+  void send(const run_of_batches& run, std::uint32_t kept, T* f, const T (&buffer)[directions][width]) const noexcept {
+    const offsets& by = tables_[static_cast<std::size_t>(run.table)];
+    std::uint32_t there[directions];
+    for (std::size_t k = 0; k < directions; ++k) {
+      there[k] = run.used;
+    }
+    if constexpr (S == stream::exchange) {
+      for (std::size_t e = run.exceptions[0]; e < run.exceptions[1]; ++e) {
+        const exception& x = exceptions_[e];
+        there[x.direction] &= ~((run.streams >> x.direction & 1U) << x.lane);
+      }
+    }
+    for (std::size_t k = 0; k < directions; ++k) {
+      if ((kept >> k & 1U) != 0) {
+        T* const to = f + departure<S>(k, run.first, by);
+        for (std::size_t lane = 0; lane < width; ++lane) {
+          to[lane] = (there[k] >> lane & 1U) != 0 ? buffer[k][lane] : to[lane];
+        }
+      }
+    }
+    if constexpr (S == stream::exchange) {
+      for (std::size_t e = run.exceptions[0]; e < run.exceptions[1]; ++e) {
+        const exception& x = exceptions_[e];
+        if ((run.streams >> x.direction & 1U) != 0) {
+          f[x.gate] = buffer[x.direction][x.lane];
+        }
+      }
+    }
+  }
+
+  /// A batch of reservoir nodes: what leaves them does not depend on their neighbours.
+  template <stream S>
+  void hold(const held_batch& b, detail::aligned_vector<T>& next) {
     number f[components][directions];
-    number psi[components][directions];
-    for (std::size_t l = p.first_loose; l < p.last_loose; ++l) {
-      const loose_batch& b = loose_[l];
-      for (std::size_t c = 0; c < components; ++c) {
-        const T* from = f_[c].data();
-        const T* seen = psi_[c].data();
-        for (std::size_t i = 0; i < directions; ++i) {
-          for (std::size_t lane = 0; lane < width; ++lane) {
-            f[c][i].v[lane] = from[arrival<S>(i, b, lane)];
-            psi[c][i].v[lane] = seen[b.seen[i][lane]];
-          }
+    number rho[components];
+    for (std::size_t c = 0; c < components; ++c) {
+      const T* const from = slots(f_, stride_, c);
+      for (std::size_t i = 0; i < directions; ++i) {
+        for (std::size_t lane = 0; lane < width; ++lane) {
+          f[c][i].v[lane] = from[S == stream::turn ? i * stride_ + static_cast<std::size_t>(b.node[lane])
+                                                   : against<S>(b.gate[reversed(i)][lane])];
         }
       }
-      if (b.reservoir) {
-        number rho[components];
-        for (std::size_t c = 0; c < components; ++c) {
-          rho[c] = number(static_cast<T>(reservoirs_[b.tag][c]));
-        }
-        model_.hold(f, rho);
-      } else {
-        model_.collide(f,
-                       [&]<int C, int I>(detail::number<C>, detail::number<I>) TETRAPORE_INLINE { return psi[C][I]; });
-      }
-      for (std::size_t c = 0; c < components; ++c) {
-        T* to = target(c);
-        for (std::size_t k = 0; k < directions; ++k) {
-          for (std::size_t lane = 0; lane < width; ++lane) {
-            std::size_t at;
-            if constexpr (S == stream::turn) {
-              at = static_cast<std::size_t>(opposite(static_cast<int>(k))) * stride_ +
-                   static_cast<std::size_t>(b.node[lane]);
-            } else if constexpr (S == stream::exchange) {
-              at = static_cast<std::size_t>(b.gate[k][lane]);
-            } else {
-              at = k * stride_ + static_cast<std::size_t>(b.node[lane]);
-            }
-            to[at] = f[c][k].v[lane];
-          }
+      rho[c] = number(static_cast<T>(reservoirs_[b.tag][c]));
+    }
+    model_.hold(f, rho);
+    for (std::size_t c = 0; c < components; ++c) {
+      T* const to = slots(next, stride_, c);
+      for (std::size_t k = 0; k < directions; ++k) {
+        for (std::size_t lane = 0; lane < width; ++lane) {
+          const std::size_t slot = S == stream::turn ? reversed(k) : k;
+          to[S == stream::exchange ? static_cast<std::size_t>(b.gate[k][lane])
+                                   : slot * stride_ + static_cast<std::size_t>(b.node[lane])] = f[c][k].v[lane];
         }
       }
     }
@@ -574,15 +726,16 @@ class simulation {
   std::size_t stride_ = 0;
   std::int32_t idle_ = 0;
   std::size_t steps_ = 0;
-  std::array<detail::aligned_vector<T>, components> f_;
-  std::array<detail::aligned_vector<T>, components> next_;
+  detail::aligned_vector<T> f_;  ///< slots of all nodes, one behind the other, component by component
+  detail::aligned_vector<T> next_;
   std::array<detail::aligned_vector<T>, components> psi_;
   std::array<densities, tags> walls_;
   std::array<densities, tags> reservoirs_;
   std::vector<offsets> tables_;
   std::vector<run_of_batches> runs_;
-  std::vector<loose_batch> loose_;
-  std::vector<plane> batches_;
+  std::vector<exception> exceptions_;
+  std::vector<held_batch> held_;
+  std::vector<plane> planes_;
   std::vector<image_slots> images_;
 };
 
