@@ -34,12 +34,12 @@ double measured_factor(double attraction) {
   double c = 2;
   double start = main_density;
   for (int turn = 0; turn < 4; ++turn) {
-    const double dissolved = lbm::dissolved_density({attraction, c, start}).value;
+    const double dissolved = lbm::dissolved_density({attraction, c, 0, start}).value;
     const lbm::lattice_box box{{1, 1, 64},
                                {lbm::face_kind::periodic, lbm::face_kind::periodic, lbm::face_kind::mirror},
                                {lbm::face_kind::periodic, lbm::face_kind::periodic, lbm::face_kind::mirror}};
     lbm::simulation<fluid, double, lbm::storage::in_place, 1> s(fluid_of(attraction),
-                                                               {box, [](int, int, int) { return lbm::site{}; }});
+                                                                {box, [](int, int, int) { return lbm::site{}; }});
     s.initialise([&](const std::array<int, 3>& p, auto& rho, auto&) {
       const double gas = 0.5 * (1 + std::tanh((31.5 - p[2]) / 1.5));
       rho = {dissolved + (start - dissolved) * gas, start + (dissolved - start) * gas};
@@ -63,8 +63,7 @@ bubble measured_bubble(const lbm::coexistence& pair, double radius, double tensi
   for (int turn = 0; turn < 3; ++turn) {
     const int n = static_cast<int>(1.75 * radius) + 2;
     const auto rho = lbm::reservoirs(start, 2 * b.tension / b.radius).value;
-    const std::array<lbm::face_kind, 3> mirrors{lbm::face_kind::mirror, lbm::face_kind::mirror,
-                                                lbm::face_kind::mirror};
+    const std::array<lbm::face_kind, 3> mirrors{lbm::face_kind::mirror, lbm::face_kind::mirror, lbm::face_kind::mirror};
     lbm::simulation<fluid, float> s(fluid_of(pair.attraction),
                                     {{{n, n, n}, mirrors, mirrors}, [](int, int, int) { return lbm::site{}; }});
     s.initialise([&](const std::array<int, 3>& p, auto& start_rho, auto&) {
@@ -95,7 +94,7 @@ bubble measured_bubble(const lbm::coexistence& pair, double radius, double tensi
 int main(int argc, char** argv) {
   for (int k = 1; k < argc; ++k) {
     const double attraction = std::strtod(argv[k], nullptr);
-    const lbm::coexistence pair{attraction, measured_factor(attraction), main_density};
+    const lbm::coexistence pair{attraction, measured_factor(attraction), 0.5, main_density};
     std::array<bubble, 3> b{};
     double guess = 0.09;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -113,8 +112,8 @@ int main(int argc, char** argv) {
     }
     const double slope = (xy - x * y) / (xx - x * x);
     const double flat = y - slope * x;
-    std::printf("{%.1f, %.3f, %.5f, %.4f, %.4f, %.2f},\n", attraction, main_density, pair.factor, flat + slope / 18, flat,
-                slope / flat);
+    std::printf("{%.1f, %.3f, %.5f, %.2f, %.4f, %.4f, %.2f},\n", attraction, main_density, pair.factor, pair.common,
+                flat + slope / 18, flat, slope / flat);
     std::fflush(stdout);
   }
 }

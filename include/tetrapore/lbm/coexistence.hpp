@@ -39,22 +39,32 @@ enum class coexistence_status : unsigned char {
 
 /// How two components of ψ = ρ that repel each other part.
 ///
-/// Across an interface ln ρ_a + c G ρ_b of each component is the same on both sides. c = 1/(1 − 1/2τ) where the force
-/// is weak; steep interfaces lower it, so it is measured.
+/// At rest ∇ρ_a/3 = c F_a − (c − 1) (ρ_a/ρ) F with ρ = ρ_a + ρ_b, F = F_a + F_b: the common velocity of the collision
+/// carries a share of what the components drift against each other. With F_a = −ρ_a G ∇ρ_b / 3
+///
+///   μ_a = ln ρ_a + c G ρ_b + w ln (ρ_a + ρ_b),  w = c − 1
+///
+/// of each component is the same on both sides of an interface, and Σ ρ_a dμ_a = 3 c dp with p of `pressure_of`.
+/// c = 1/(1 − 1/2τ) with the velocity shift and 1 with a source where the force is weak. Steep interfaces, in which the
+/// square of the force counts, lower both, so they are measured: c on a flat interface, where w does not matter, and w
+/// as that at which nothing flows through a curved one.
 /// \par Units  lattice units
+/// \par Source  moments of a step at rest, derived here
 struct coexistence {
   double attraction;  ///< G > 0
   double factor;      ///< c
+  double common;      ///< w
   double main;        ///< density of each component in its own phase where the interface is flat
 };
 
 /// What was measured on flat interfaces and bubbles of D3Q19, BGK, velocity shift, τ = 1.
 /// \par Units     lattice units
-/// \par Accuracy  factor 1e-4; surface tension 1 % between bubbles of R = 7 … 18
+/// \par Accuracy  factor 1e-4; common 0.05; surface tension 1 % between bubbles of R = 7 … 18
 struct calibrated_pair {
   double attraction;       ///< G
   double main;             ///< density of each component in its own phase, flat interface
   double factor;           ///< c of `coexistence`, from the flat interface
+  double common;           ///< w, from a meniscus in a throat
   double surface_tension;  ///< of a bubble of R = 18 nodes, mean main density as above
   double flat_tension;     ///< limit of large R
   double curvature;        ///< σ = flat_tension × (1 + curvature / R), R in nodes
@@ -126,16 +136,22 @@ template <std::size_t N>
   return true;
 }
 
+/// Whether a phase of given densities does not fall apart: dμ_a/dρ_a dμ_b/dρ_b exceeds the square of dμ_a/dρ_b.
+[[nodiscard]] inline bool keeps_together(const coexistence& c, const std::array<double, 2>& rho) noexcept {
+  const double w = c.common / (rho[0] + rho[1]);
+  const double across = c.attraction * c.factor + w;
+  return (1 / rho[0] + w) * (1 / rho[1] + w) > across * across;
+}
+
 }  // namespace detail
 
-/// The densities of two reservoirs whose pressures differ by p_c: ln ρ_a + c G ρ_b of each component is the same in
-/// both.
+/// The densities of two reservoirs whose pressures differ by p_c: μ of each component is the same in both.
 ///
 /// `gas_share` of p_c raises the gas above the pressure of the flat interface, the rest lowers the liquid below. With
 /// one half the surface tension, which follows the densities, keeps its value to first order in p_c.
 /// \par Units   lattice units
 /// \par Domain  p_c of either sign, up to where a phase dissolves
-/// \par Source  equality of chemical potentials of ψ = ρ, Shan & Chen, Phys. Rev. E 49, 2941 (1994); c as measured
+/// \par Source  equal potentials as `coexistence` derives them
 [[nodiscard]] inline outcome<reservoir_pair, coexistence_status> reservoirs(const coexistence& c, double capillary,
                                                                             double gas_share = 0.5) noexcept {
   constexpr double nan = quiet_nan<double>;
@@ -166,12 +182,16 @@ template <std::size_t N>
         r[i] = std::exp(x[i]);
       }
       const double g = c.attraction;
-      std::array<double, 4> f{x[0] + k * r[1] - x[2] - k * r[3], x[1] + k * r[0] - x[3] - k * r[2],
+      const double w = c.common;
+      const double gas = r[0] + r[1];
+      const double liquid = r[2] + r[3];
+      const double common = w * std::log(gas / liquid);
+      std::array<double, 4> f{x[0] + k * r[1] - x[2] - k * r[3] + common, x[1] + k * r[0] - x[3] - k * r[2] + common,
                               pressure_of(c, {r[0], r[1]}) - rest - gas_share * p,
                               pressure_of(c, {r[2], r[3]}) - rest + (1 - gas_share) * p};
       const std::array<std::array<double, 4>, 4> slope{
-          {{1, k * r[1], -1, -k * r[3]},
-           {k * r[0], 1, -k * r[2], -1},
+          {{1 + w * r[0] / gas, (k + w / gas) * r[1], -1 - w * r[2] / liquid, -(k + w / liquid) * r[3]},
+           {(k + w / gas) * r[0], 1 + w * r[1] / gas, -(k + w / liquid) * r[2], -1 - w * r[3] / liquid},
            {r[0] * (1 + g * r[1]) / 3, r[1] * (1 + g * r[0]) / 3, 0, 0},
            {0, 0, r[2] * (1 + g * r[3]) / 3, r[3] * (1 + g * r[2]) / 3}}};
       if (!detail::eliminate(slope, f)) {
@@ -182,11 +202,13 @@ template <std::size_t N>
         x[i] -= f[i];
         moved = std::max(moved, std::abs(f[i]));
       }
-      if (!(moved < 2)) {
+      if (!(moved < 0.5)) {  // a leap to other phases
         return refused(coexistence_status::dissolved);
       }
     }
-    if (!(moved <= 1e-10) || !(x[0] > x[1]) || !(x[3] > x[2])) {
+    const bool two_phases = detail::keeps_together(c, {std::exp(x[0]), std::exp(x[1])}) &&
+                            detail::keeps_together(c, {std::exp(x[2]), std::exp(x[3])});
+    if (!(moved <= 1e-10) || !two_phases || !(x[0] > x[1]) || !(x[3] > x[2])) {
       return refused(coexistence_status::dissolved);
     }
   }

@@ -27,7 +27,7 @@ namespace tetrapore::inline TETRAPORE_ABI {
 namespace lbm {
 
 /// The measured pairs of `calibrate_pair`: G = 1.8 leaves an interface of 2.9 nodes and slow spurious currents.
-inline constexpr calibrated_pair pair_18{1.8, 1.003, 1.99526, 0.0877, 0.0870, 0.14};
+inline constexpr calibrated_pair pair_18{1.8, 1.003, 1.99526, 0.5, 0.0877, 0.0870, 0.14};
 
 /// The densities that a wall shows where the contact angle is θ; at 0 those of the liquid itself, twice what the angle
 /// asks for, so that a film covers the wall.
@@ -53,18 +53,18 @@ inline constexpr calibrated_pair pair_18{1.8, 1.003, 1.99526, 0.0877, 0.0870, 0.
 /// What an entry experiment is made of.
 /// \par Units  lattice units but where said
 struct entry_set_up {
-  opening<double> throat;                      ///< three discs, in any unit of length
+  opening<double> throat;  ///< three discs, in any unit of length
   std::array<prism_side, 3> sides{};
-  double nodes_per_length = 1;                 ///< nodes per unit of the throat
-  double retraction = 1.1;                     ///< nodes by which grains shrink: room for the film
-  double clear = 1.1;                          ///< how far the reservoirs lie, in radii of the largest grain
-  double contact_angle = 0;                    ///< [rad]
+  double nodes_per_length = 1;  ///< nodes per unit of the throat
+  double retraction = 1.1;      ///< nodes by which grains shrink: room for the film
+  double clear = 1.1;           ///< how far the reservoirs lie, in radii of the largest grain
+  double contact_angle = 0;     ///< [rad]
   calibrated_pair pair = pair_18;
-  double gas_share = 0.5;                      ///< of p_c that raises the gas; the rest lowers the liquid
-  std::uint64_t ramp = 2000;                   ///< steps over which p_c changes
-  std::uint64_t most_steps = 40000;            ///< of a hold
-  double still = 0.006;                        ///< nodes per 1000 steps: an apex that moves less rests
-  double still_mass = 1e-3;                    ///< share of the gas's mass per 1000 steps: less is no drift
+  double gas_share = 0.5;            ///< of p_c that raises the gas; the rest lowers the liquid
+  std::uint64_t ramp = 2000;         ///< steps over which p_c changes
+  std::uint64_t most_steps = 20000;  ///< of a hold
+  double still = 0.006;              ///< nodes per 1000 steps: an apex that moves less rests
+  double still_mass = 1e-3;          ///< share of the gas's mass per 1000 steps: less is no drift
 };
 
 /// The plane picture of a throat: what the experiment is compared with, and its first bracket.
@@ -118,7 +118,7 @@ class entry_experiment {
   explicit entry_experiment(const entry_set_up& s)
       : set_up_(s),
         plane_(plane_entry_of(s.throat, s.sides, s.contact_angle)),
-        pair_{s.pair.attraction, s.pair.factor, s.pair.main},
+        pair_{s.pair.attraction, s.pair.factor, s.pair.common, s.pair.main},
         throat_(s.throat, s.sides, resolution()),
         sim_(model(), throat_.template sites<d3q19>()) {
     if (!(s.still > 0) || !(s.still_mass > 0) || s.most_steps < window) {
@@ -257,8 +257,7 @@ class entry_experiment {
   }
   [[nodiscard]] throat_resolution resolution() const noexcept {
     const double reach = set_up_.clear * largest();
-    return {set_up_.nodes_per_length, set_up_.retraction, reach,
-            std::max(reach, inscribed() + 0.25 * smallest() + 6)};
+    return {set_up_.nodes_per_length, set_up_.retraction, reach, std::max(reach, inscribed() + 0.25 * smallest() + 6)};
   }
   [[nodiscard]] Model model() const noexcept {
     Model m;
@@ -341,7 +340,7 @@ class entry_experiment {
 
   [[nodiscard]] hold_report finish(hold_report r, const observation& o) const {
     r.position = o.apex;
-    r.measured = mean_pressure(throat_.box().size[2] - 3) - mean_pressure(2);
+    r.measured = pressure_at(throat_.box().size[2] - 2) - pressure_at(1);
     return r;
   }
 
@@ -383,26 +382,18 @@ class entry_experiment {
     o.apex -= throat_.middle();
     return o;
   }
-  /// Of the nodes of a level that no wall is beside.
-  [[nodiscard]] double mean_pressure(int level) const {
+  /// The middle one of the pressures of a level's nodes: the film on the grains below the reservoir is few of them.
+  [[nodiscard]] double pressure_at(int level) const {
     const auto& map = sim_.sites();
-    double sum = 0;
-    double count = 0;
+    std::vector<double> all;
     for (std::size_t n = 0; n < map.size(); ++n) {
-      if (map.place(n)[2] != level) {
-        continue;
-      }
-      bool free = true;
-      for (int k = 1; k < static_cast<int>(d3q19::directions) && free; ++k) {
-        const auto s = map.seen(n, k);
-        free = s.node != site_map<d3q19>::none || s.image != site_map<d3q19>::none;
-      }
-      if (free) {
-        sum += sim_.model().pressure(sim_.densities_at(n));
-        count += 1;
+      if (map.place(n)[2] == level) {
+        all.push_back(sim_.model().pressure(sim_.densities_at(n)));
       }
     }
-    return sum / count;
+    const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+    std::nth_element(all.begin(), middle, all.end());
+    return *middle;
   }
 
   template <class Do>
@@ -425,9 +416,9 @@ class entry_experiment {
       h.add(static_cast<std::uint64_t>(set_up_.sides[k]));
     }
     const calibrated_pair& p = set_up_.pair;
-    for (const double x : {set_up_.nodes_per_length, set_up_.retraction, set_up_.clear, set_up_.contact_angle,
-                           set_up_.gas_share, set_up_.still, set_up_.still_mass, p.attraction, p.factor, p.main,
-                           p.surface_tension}) {
+    for (const double x :
+         {set_up_.nodes_per_length, set_up_.retraction, set_up_.clear, set_up_.contact_angle, set_up_.gas_share,
+          set_up_.still, set_up_.still_mass, p.attraction, p.factor, p.common, p.main, p.surface_tension}) {
       h.add(x);
     }
     return h.add(set_up_.ramp).add(set_up_.most_steps).value();

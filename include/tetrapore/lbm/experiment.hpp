@@ -43,9 +43,9 @@ enum class hold_end : std::uint8_t {
 
 /// What a hold found.
 struct hold_report {
-  double value = 0;           ///< that was set
-  double measured = 0;        ///< what the fluids show of it
-  double position = 0;        ///< of the interface
+  double value = 0;     ///< that was set
+  double measured = 0;  ///< what the fluids show of it
+  double position = 0;  ///< of the interface
   std::uint64_t steps = 0;
   std::uint64_t updates = 0;  ///< of a fluid node, all components as one
   hold_end end = hold_end::stable;
@@ -53,10 +53,10 @@ struct hold_report {
 
 /// Why a search ended.
 enum class search_end : std::uint8_t {
-  running,       ///< not yet
-  converged,     ///< the bracket is as narrow as asked
-  unbracketed,   ///< refused: widened as often as allowed, the threshold is not inside
-  undecided      ///< failed: a hold gave no answer; its end says why
+  running,      ///< not yet
+  converged,    ///< the bracket is as narrow as asked
+  unbracketed,  ///< refused: widened as often as allowed, the threshold is not inside
+  undecided     ///< failed: a hold gave no answer; its end says why
 };
 
 [[nodiscard]] constexpr verdict verdict_of(search_end e) noexcept {
@@ -88,7 +88,8 @@ struct search_options {
 };
 
 /// Bisection from a bracket that need not hold the threshold: an end that turns out to lie on the other side becomes the
-/// other end, and a new one is sought beyond. Values go up wherever they can: the first is the lower end.
+/// other end, and a new one is sought beyond. Values go up wherever they can: the first is the lower end. A hold that
+/// ends while the fluid still creeps was close to the threshold: values half a width above and below decide instead.
 class threshold_search {
  public:
   /// Everything that a search remembers. Plain numbers, to be saved as they are.
@@ -97,6 +98,7 @@ class threshold_search {
     double upper = 0;
     double measured_lower = 0;  ///< what the last stable hold showed
     double position_lower = 0;
+    double creeping = 0;  ///< a value at which the fluid still moved at the last step allowed; 0: none
     std::uint64_t steps = 0;
     std::uint64_t updates = 0;
     std::uint32_t holds = 0;
@@ -126,6 +128,10 @@ class threshold_search {
 
   /// The value to hold next.
   [[nodiscard]] double next() const noexcept {
+    if (memory_.creeping > 0) {
+      const double above = memory_.creeping * (1 + options_.width / 2);
+      return memory_.upper_known == 0 || memory_.upper > above ? above : memory_.creeping * (1 - options_.width / 2);
+    }
     return memory_.lower_known == 0 ? memory_.lower : memory_.upper_known == 0 ? memory_.upper : value();
   }
 
@@ -150,11 +156,16 @@ class threshold_search {
       if (memory_.lower_known == 0) {
         widen(memory_.lower, held / options_.widen);
       }
+    } else if (r.end == hold_end::step_limit && memory_.creeping == 0) {
+      memory_.creeping = held;
+      return;
     } else {
       memory_.end = search_end::undecided;
     }
+    const bool outside = memory_.lower_known != 0 && memory_.lower >= memory_.creeping;
+    memory_.creeping = outside || memory_.upper <= memory_.creeping ? 0 : memory_.creeping;
     if (running() && memory_.lower_known != 0 && memory_.upper_known != 0 &&
-        memory_.upper - memory_.lower <= options_.width * value()) {
+        memory_.upper - memory_.lower <= options_.width * value() * (1 + 1e-12)) {
       memory_.end = search_end::converged;
     }
   }
