@@ -448,3 +448,29 @@ TEST_CASE("no bridge is taken for out of reach, and none out of reach is named o
   MESSAGE("told without a march: ", early, " of ", asked);
   CHECK(2 * early > asked);
 }
+
+TEST_CASE("equal pairs end where the bridge does, on either side of a slide that a step of the march all but meets") {
+  const auto ends_at_its_limit = [](double theta, double volume) {
+    CAPTURE(theta);
+    CAPTURE(volume);
+    const auto law = law_of(radians(theta), radians(theta));
+    const auto limit = law.rupture_gap(edge<double>{1.0, 1.0, 0.0, up}, given_volume<double>{volume});
+    REQUIRE(limit.ok());
+    CHECK(limit.value.end == bridge_end::lopsided);
+    CHECK(at(theta, theta, 1.0, limit.value.gap * (1 - 1e-12), volume).ok());
+    CHECK(at(theta, theta, 1.0, limit.value.gap * (1 + 1e-12), volume).reason == bridge_status::lopsided);
+    // next to a cylinder and where a profile has just passed a period, too, to the digits that are stated
+    const auto finer = law_of<20>(radians(theta), radians(theta))
+                           .rupture_gap(edge<long double>{1, 1, 0, {0, 0, 1}}, given_volume<long double>{volume});
+    REQUIRE(finer.ok());
+    CHECK(std::abs(limit.value.gap / static_cast<double>(finer.value.gap) - 1) < 2e-13);
+  };
+  struct {
+    double theta, from, to;
+  } const windows[] = {{53, 0.6615, 0.6635}, {89, 6.15e-5, 6.25e-5}, {70, 0.4, 0.52}, {0, 9.4, 10}};
+  for (const auto& w : windows) {
+    for (int i = 0; i <= 40; ++i) {
+      ends_at_its_limit(w.theta, w.from + (w.to - w.from) * i / 40);
+    }
+  }
+}

@@ -451,3 +451,47 @@ TEST_CASE("float agrees with double to 1e-5 where the request's rounding allows,
   CHECK(single.value < 1e-5);
   CHECK(extended.value <= 1);
 }
+
+TEST_CASE("the rupture gap is where the bridge ends, by the same way, on random pairs at a volume and at a suction") {
+  std::mt19937_64 random(17);
+  const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); };
+  int slid = 0;
+  int flooded = 0;
+  for (int i = 0; i < (sanitized ? 100 : 3200); ++i) {
+    const bool equal = i % 8 < 6;
+    const bool by_volume = i % 8 < 5 || i % 8 == 6;
+    const double r2 = equal ? 1.0 : uniform(0, 1) < 0.2 ? infinity<double> : std::pow(10.0, uniform(-2, 2));
+    const double theta1 = uniform(0, 1) < 0.1 ? 0.0 : uniform(0, 89.9);
+    const double theta2 = equal || uniform(0, 1) < 0.3 ? theta1 : uniform(0, 89.9);
+    const double small = std::min(1.0, r2);
+    const double value = by_volume              ? std::pow(10.0, uniform(-7, std::log10(30))) * small * small * small
+                         : uniform(0, 1) < 0.75 ? std::pow(10.0, uniform(-2, 4)) / small
+                                                : -std::pow(10.0, uniform(-3, 0.3)) / small;
+    CAPTURE(r2);
+    CAPTURE(theta1);
+    CAPTURE(theta2);
+    CAPTURE(value);
+    const auto law = law_of(radians(theta1), radians(theta2));
+    const edge<double> e{1.0, r2, 0.0, {0, 0, 1}};
+    const auto limit =
+        by_volume ? law.rupture_gap(e, given_volume<double>{value}) : law.rupture_gap(e, given_suction<double>{value});
+    if (!by_volume && limit.reason == bridge_status::flooded) {
+      CHECK(value < 0);
+      ++flooded;
+      continue;
+    }
+    REQUIRE(limit.ok());
+    const bool slides = limit.value.end == bridge_end::lopsided;
+    slid += slides ? 1 : 0;
+    const auto at = [&](double gap) {
+      return request{{1.0, r2, gap, {0, 0, 1}}, radians(theta1), radians(theta2), by_volume, value}.bridge().reason;
+    };
+    for (const double away : {1e-6, 1e-10}) {
+      CHECK(at(limit.value.gap * (1 - away)) == bridge_status::ok);
+      CHECK(at(limit.value.gap * (1 + away)) == (slides ? bridge_status::lopsided : bridge_status::ruptured));
+    }
+  }
+  MESSAGE(slid << " slide, " << flooded << " flooded");
+  CHECK(slid > (sanitized ? 20 : 1000));
+  CHECK(flooded < (sanitized ? 10 : 100));
+}

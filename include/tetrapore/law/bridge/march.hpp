@@ -21,6 +21,7 @@ struct waypoint {
   T direction[4];  ///< of the unknowns, of length 1
   T reach;         ///< the gap, or the volume or k
   T slope;         ///< of `reach` along the curve
+  T hold;          ///< ∂λ/∂δ of an equal pair by size, negative from where its circles slide together
   int index;       ///< negative directions of the energy under the control
   bool sound;
 };
@@ -123,20 +124,19 @@ class path {
     if (!p.sound) {
       return;
     }
-    found<T> f;
+    found<T> f{};
     T step[4];
     f.u = p.u;
     f.at = p.at;
     // at a fold itself the unknowns have no derivatives: the direction is then that of the border
     const bool regular = linearise<Equal>(p.at, p.u, fixed_, step, f.by_gap, f.by_value);
-    p.index = 1;
-    if (regular) {
-      const stability_index index = index_of<Equal>(pair_, f, fixed_.by);
-      p.index = fixed_.by == bridge_control::volume ? index.at_volume : index.at_suction;
-    } else if (from == nullptr) {
-      p.sound = false;
+    p.sound = regular || from != nullptr;
+    if (!p.sound) {
       return;
     }
+    const stability_index index = index_of<Equal>(pair_, f, fixed_.by);
+    p.index = !regular ? 1 : fixed_.by == bridge_control::volume ? index.at_volume : index.at_suction;
+    p.hold = index.slides ? -std::abs(p.at.turn[0]) : std::abs(p.at.turn[0]);
     const T(&along_curve)[4] = !regular ? from->direction : what_ == along::gap ? f.by_gap : f.by_value;
     T unit = p.at.scale;
     if (what_ == along::value) {
@@ -177,13 +177,6 @@ struct journey {
   arrival how;
 };
 
-/// λ's rate by the filling angle at the circles of an equal pair, positive as long as they do not slide together. At
-/// θ = 0 it vanishes with δ + θ − 90°, and they slide from there on where the profile has passed a whole period.
-template <std::floating_point T>
-[[nodiscard]] inline T hold(const waypoint<T>& p) noexcept {
-  return (p.at.cosine[0] < T(0)) == (extrema(p.at) > 1) ? p.at.turn[0] : -p.at.turn[0];
-}
-
 /// Whether the curve turns so far between two waypoints that they may lie on two curves.
 template <std::floating_point T>
 [[nodiscard]] inline bool turned(const waypoint<T>& from, const waypoint<T>& to) noexcept {
@@ -198,13 +191,13 @@ template <std::floating_point T>
 template <int N, bool Equal, std::floating_point T>
 [[nodiscard]] inline bool slides(const path<Equal, T>& along_path, const waypoint<T>& from, const waypoint<T>& to,
                                  const T& distance, waypoint<T>& where) noexcept {
-  if (!Equal || !(hold(from) > T(0)) || hold(to) > T(0)) {
+  if (!Equal || !(from.hold > T(0)) || to.hold > T(0)) {
     return false;
   }
   T low(0);
   T high = distance;
-  T at_low = hold(from);
-  T at_high = hold(to);
+  T at_low = from.hold;
+  T at_high = to.hold;
   where = to;
   int iterations = 0;
   for (int i = 0; i < path<Equal, T>::locate_cap; ++i) {
@@ -214,8 +207,8 @@ template <int N, bool Equal, std::floating_point T>
       break;
     }
     where = mid;
-    const T now = hold(mid);
-    if (std::abs(now) < T(4) * std::numeric_limits<T>::epsilon() * hold(from) ||
+    const T now = mid.hold;
+    if (std::abs(now) < T(4) * std::numeric_limits<T>::epsilon() * from.hold ||
         high - low < std::numeric_limits<T>::epsilon()) {
       break;
     }
@@ -247,8 +240,11 @@ template <int N, bool Equal, std::floating_point T>
       return trip;
     }
     waypoint<T> next = along_path.template advance<N>(from, h, &iterations, true);
-    if (next.sound && iterations <= 5 && sign * (next.reach - target) >= T(0)) {
-      next = along_path.template advance<N>(from, h, &iterations);  // a rough one may only seem to have passed
+    // a rough one may only seem to have passed the target, a fold or a slide, or to lie before them
+    const bool near = next.sound && (sign * (next.reach - target) >= T(0) || (Equal && next.hold < T(0.01)) ||
+                                     sign * next.slope < T(0.1) * sign * from.slope);
+    if (near && iterations <= 5) {
+      next = along_path.template advance<N>(from, h, &iterations);
       iterations = next.sound ? 3 : 12;
     }
     if (!next.sound || iterations > 5 || turned(from, next)) {
@@ -258,7 +254,7 @@ template <int N, bool Equal, std::floating_point T>
     const bool passed = sign * (next.reach - target) >= T(0);
     const bool folded = !(sign * next.slope > T(0));
     // a step that leaps to another curve arrives where the number of negative directions does not fit
-    const bool sliding = Equal && !(hold(next) > T(0));
+    const bool sliding = Equal && !(next.hold > T(0));
     if (!sliding && next.index != (folded ? 1 : 0)) {
       h *= T(0.4);
       continue;
@@ -307,7 +303,7 @@ template <int N, bool Equal, std::floating_point T>
           at_high = mid;
         }
         const T least = smaller(std::abs(at_low.slope), std::abs(at_high.slope));
-        const bool ordered = !Equal || (hold(at_low) > T(0)) == (hold(at_high) > T(0));  // no slide between the two
+        const bool ordered = !Equal || (at_low.hold > T(0)) == (at_high.hold > T(0));  // no slide between the two
         if (ordered && isfinite(target) &&
             sign * (target - at_low.reach) >
                 T(2) * std::abs(at_low.slope) * (high - low) + T(0.02) * std::abs(target)) {

@@ -232,8 +232,8 @@ struct sample {
   T lambda;
   T by[4][4];  ///< rows as above
   T lambda_by[4];
-  T turn[2];    ///< the sign of ∂λ/∂δ at each circle, k constant: negative where the circle slides
-  T cosine[2];  ///< of δ + θ
+  T turn[2];    ///< the sign of ∂λ/∂δ at each circle, k constant, and where × cosine < 0 the circle slides
+  T cosine[2];  ///< of δ + θ; both are over the signed p where a mirror plane gives them so (see mirrored)
   T modulus;    ///< p, negative on the side of a bulge
   T span;       ///< |2k| × arc length
   bool sound;   ///< false: no such profile
@@ -462,6 +462,18 @@ struct circle_point {
   }
 };
 
+/// Turn, cosine and span of a profile of length `extent` from the circle to its mirror plane. There 1 + 2kz is ±p, and
+/// both are ∝ ±p, which next to a cylinder leaves of them no digit: they are taken without it.
+template <std::floating_point T>
+inline void mirrored(sample<T>& s, const contact_circle<T>& at, const profile<T>& u) noexcept {
+  const T x = T(-2) * u.k * u.extent;
+  const T sine = std::sin(x);
+  s.span = T(2) * x;
+  s.cosine[0] = s.cosine[1] = sine;
+  s.turn[0] = s.turn[1] =
+      (at.sine * std::cos(x) - at.cosine * sine) * at.cap_cosine - at.cap_sine * sine / (T(2) * u.k * at.radius);
+}
+
 template <int N, bool Equal, std::floating_point T>
 [[nodiscard]] inline sample<T> sample_from_contact(const surface_pair<T>& pair, const profile<T>& u) noexcept {
   using std::atan2;
@@ -531,15 +543,12 @@ template <int N, bool Equal, std::floating_point T>
   s.by[volume_row][1] = per_volume * (v + v_by[1]);
   s.by[volume_row][2] = per_volume * v_by[2] - both * pi<T> * rise;
   const walk end = at(T(1));
-  s.turn[0] = first.turn(k);
-  s.cosine[0] = first.cosine;
   if constexpr (Equal) {
+    mirrored(s, first, u);
     s.match[0] = end.z.im * inverse;
     s.by[match_row][0] = end.z_k.im * inverse * inverse;
     s.by[match_row][1] = end.z_l.im * inverse;
     s.by[match_row][2] = end.z_w.im * inverse;
-    s.turn[1] = s.turn[0];
-    s.cosine[1] = s.cosine[0];
   } else {
     const contact_circle<T> second(pair.side[1], u.w[1]);
     const circle_point<T> target(second, 1);
@@ -556,8 +565,11 @@ template <int N, bool Equal, std::floating_point T>
     s.volume -= second.cap * inverse * inverse * inverse;
     s.by[gap_row][3] = -second_rise;
     s.by[volume_row][3] = -pi<T> * ratio * ratio * second_rise;
+    s.turn[0] = first.turn(k);
     s.turn[1] = second.turn(k);
+    s.cosine[0] = first.cosine;
     s.cosine[1] = second.cosine;
+    s.span = T(-2) * k * length;
   }
   const T size = start.z.re * start.z.re + start.z.im * start.z.im;
   s.lambda = (start.z.re + k * size) * inverse;
@@ -565,7 +577,6 @@ template <int N, bool Equal, std::floating_point T>
   s.lambda_by[1] = T(0);
   s.lambda_by[2] = (front.re * start.z_w.re + front.im * start.z_w.im) * inverse;
   s.lambda_by[3] = T(0);
-  s.span = T(-2) * k * both * length;
   return s;
 }
 

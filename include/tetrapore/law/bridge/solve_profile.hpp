@@ -80,17 +80,6 @@ inline void move(profile<T>& u, const T& scale, const T (&by)[4], const T& facto
   }
 }
 
-/// The largest share of a step that changes no length by more than half and k by no more than its own size or that of
-/// 1 / scale.
-template <bool Equal, std::floating_point T>
-[[nodiscard]] inline T bounded(const profile<T>& u, const T& scale, const T (&by)[4]) noexcept {
-  T largest = std::abs(by[0]) / (T(1) + std::abs(u.k) * scale);
-  for (int i = 1; i < unknowns<Equal>; ++i) {
-    largest = larger(largest, std::abs(by[i]));
-  }
-  return largest > T(0.5) ? T(0.5) / largest : T(1);
-}
-
 /// The profile in the chart that suits it: from the extremum where there is a neck, real or virtual, else from the
 /// contact; p small, a bulge and a radius of the neck that is negative all need the latter.
 template <bool Equal, std::floating_point T>
@@ -322,8 +311,10 @@ template <int N, bool Equal, bool Rough = false, std::floating_point T>
         const contact_circle<T> first(pair.side[0], f.u.w[0]);
         if (f.u.by == chart::from_contact) {
           f.lambda = first.radius * (first.sine + f.u.k * first.radius);
-        }
-        if constexpr (Equal) {
+          if constexpr (Equal) {
+            mirrored(f.at, first, f.u);
+          }
+        } else {
           f.at.turn[0] = f.at.turn[1] = first.turn(f.u.k);
           f.at.cosine[0] = f.at.cosine[1] = first.cosine;
         }

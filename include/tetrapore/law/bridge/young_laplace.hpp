@@ -83,7 +83,8 @@ struct young_laplace {
     return solve<T, true>(e, p.value, bridge_control::suction, w);
   }
 
-  /// Areas of a bridge of this law on this edge. \par Units  [m²]
+  /// Areas of a bridge of this law on this edge. Here and below the bridge must be there, its answer ok: a contract
+  /// (core/contracts.hpp); unchecked, areas, energy and stiffness of none are NaN. \par Units  [m²]
   template <std::floating_point T>
   [[nodiscard]] bridge_areas<T> areas(const edge<T>& e, const meniscus<T>& m) const noexcept;
 
@@ -213,6 +214,7 @@ struct young_laplace {
 
   template <class T, class W = work<T>>
   [[nodiscard]] static detail::profile<W> profile_in(const meniscus<T>& m) noexcept {
+    TETRAPORE_EXPECTS(m.extent > T(0), "an absent or refused bridge has no profile");
     return {static_cast<W>(m.curvature),
             static_cast<W>(m.extent),
             {static_cast<W>(m.circle1), static_cast<W>(m.circle2)},
