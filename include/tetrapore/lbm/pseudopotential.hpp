@@ -44,22 +44,23 @@ struct exponential_potential {
 
   template <class R>
   [[nodiscard, gnu::always_inline]] R operator()(const R& rho) const noexcept {
-    using T = typename lane_of<R>::type;
-    const T most = static_cast<T>(saturation);
-    return lanewise(rho, [most](const T& x) {
+    using number = typename lane_of<R>::type;
+    const number most = static_cast<number>(saturation);
+    return lanewise(rho, [most](const number& x) {
       using std::expm1;
       return -most * expm1(-x / most);
     });
   }
   template <class R>
   [[nodiscard, gnu::always_inline]] R per_density(const R& rho) const noexcept {
-    using T = typename lane_of<R>::type;
-    const T most = static_cast<T>(saturation);
-    return lanewise(rho, [most](const T& x) {
+    using number = typename lane_of<R>::type;
+    const number most = static_cast<number>(saturation);
+    return lanewise(rho, [most](const number& x) {
       using std::abs;
       using std::expm1;
-      const T share = x / most;
-      return abs(share) < static_cast<T>(1e-4) ? T(1) - share * static_cast<T>(0.5) : -expm1(-share) / share;
+      const number share = x / most;
+      return abs(share) < static_cast<number>(1e-4) ? number(1) - share * static_cast<number>(0.5)
+                                                    : -expm1(-share) / share;
     });
   }
 };
