@@ -5,7 +5,9 @@
 
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
+#include <type_traits>
 
 /// \file
 /// Several nodes at once: a number of numbers that the compiler keeps in one register.
@@ -43,6 +45,16 @@ struct pack {
   }
   [[gnu::always_inline]] void store(T* to) const noexcept { std::memcpy(to, &v, sizeof(values)); }
 
+  /// Lanes of a where the lane's bit is set, else of b.
+  [[nodiscard, gnu::always_inline]] static pack select(std::uint32_t lanes, const pack& a, const pack& b) noexcept {
+    integers bit{};
+    for (int lane = 0; lane < N; ++lane) {
+      bit[lane] = static_cast<integer>(std::uint32_t{1} << static_cast<unsigned>(lane));
+    }
+    const integers chosen = bit & (integers{} + static_cast<integer>(lanes));
+    return of(chosen != integers{} ? a.v : b.v);
+  }
+
   [[nodiscard]] T operator[](int lane) const noexcept { return v[lane]; }
   void set(int lane, const T& x) noexcept { v[lane] = x; }
 
@@ -61,6 +73,10 @@ struct pack {
   [[nodiscard, gnu::always_inline]] friend pack operator-(const pack& a) noexcept { return of(-a.v); }
 
  private:
+  using integer = std::conditional_t<sizeof(T) == 8, std::int64_t, std::int32_t>;
+  typedef integer integers
+      __attribute__((vector_size(static_cast<std::size_t>(N) * sizeof(T))));  // NOLINT(modernize-use-using)
+
   [[nodiscard, gnu::always_inline]] static pack of(const values& x) noexcept {
     pack p;
     p.v = x;

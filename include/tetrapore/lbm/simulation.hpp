@@ -24,7 +24,7 @@
 ///
 /// Nodes go in batches of as many as a register holds: consecutive nodes, a first one and an offset for each direction.
 /// Where a node of a batch streams elsewhere or sees something else (walls, mirrors, the ends of rows), that is an
-/// exception of the batch: the direction goes through a small buffer, in which the exceptions are replaced one by one.
+/// exception of the batch: the direction goes through a small buffer, in which the exceptions replace some lanes.
 /// All batches run through the same code. ψ of a plane is worked out just before the planes beside it are updated, so
 /// that populations pass through the cache once.
 
@@ -99,7 +99,7 @@ class simulation {
       next_.assign(f_.size(), T(0));
     }
     for (std::size_t c = 0; c < components; ++c) {
-      psi_[c].assign(beyond + stride_ + tags + map_.images().size(),
+      psi_[c].assign(beyond + stride_ + tags + map_.images().size() + beyond,
                      static_cast<T>(model_.potential(model_.reference[c])));
     }
     walls_.fill(model_.reference);
@@ -239,17 +239,20 @@ class simulation {
   struct run_of_batches {
     std::int32_t first;
     std::int32_t batches;
-    std::int32_t table;         ///< of `tables_`: the neighbour in direction k is a node + this
-    std::uint32_t used;         ///< a bit for each lane whose node is updated
-    std::uint32_t streams;      ///< a bit for each direction in which some node's populations go elsewhere
-    std::uint32_t sees;         ///< the same of ψ
-    std::size_t exceptions[2];  ///< of `exceptions_`: from, to
+    std::int32_t table;     ///< of `tables_`: the neighbour in direction k is a node + this
+    std::uint32_t used;     ///< a bit for each lane whose node is updated
+    std::uint32_t streams;  ///< a bit for each direction in which some node's populations go elsewhere
+    std::uint32_t sees;     ///< the same of ψ
+    std::size_t gates[2];   ///< of `gates_`
+    std::size_t sights[2];  ///< of `sights_`
   };
+  /// Nodes of a batch for which something is elsewhere in a direction, but side by side as they are: a wall returns what
+  /// leaves, a mirror passes it on, the next row has other offsets.
   struct exception {
-    std::int32_t gate;  ///< where what leaves arrives: slot × stride + node
-    std::int32_t seen;  ///< the index of ψ
+    std::int32_t place;  ///< + lane: the slot × stride + node where what leaves arrives, or the index of ψ
+    std::uint32_t lanes;
     std::uint8_t direction;
-    std::uint8_t lane;
+    bool same;  ///< ψ: one place for all
   };
   /// Nodes of a reservoir.
   struct held_batch {
@@ -270,6 +273,10 @@ class simulation {
     std::size_t count;
     std::int32_t slot;
   };
+
+  [[nodiscard]] static constexpr std::size_t reversed(std::size_t i) noexcept {
+    return static_cast<std::size_t>(opposite(static_cast<int>(i)));
+  }
 
   [[nodiscard]] bool odd() const noexcept { return steps_ % 2 == 1; }
 
@@ -339,7 +346,7 @@ class simulation {
 
   /// The batch that begins at a node of a plane.
   void add_batch(std::size_t n, std::size_t end, std::size_t first_run, std::map<offsets, std::int32_t>& known) {
-    run_of_batches b{static_cast<std::int32_t>(n), 1, 0, 0, 0, 0, {exceptions_.size(), 0}};
+    run_of_batches b{static_cast<std::int32_t>(n), 1, 0, 0, 0, 0, {gates_.size(), 0}, {sights_.size(), 0}};
     for (std::size_t lane = 0; lane < width; ++lane) {
       if (n + lane < end && map_.at(n + lane).kind != site_kind::reservoir) {
         b.used |= 1U << lane;
@@ -369,21 +376,24 @@ class simulation {
         }
       }
       for (std::size_t lane = 0; lane < width; ++lane) {
+        const auto there = static_cast<std::int32_t>(n + lane) + by[k];
         if ((b.used >> lane & 1U) == 0) {
           continue;
         }
-        const std::int32_t there = static_cast<std::int32_t>(n + lane) + by[k];
-        const bool elsewhere = to[lane].as != k || to[lane].to != there;
-        b.streams |= elsewhere ? 1U << k : 0U;
-        b.sees |= seen[lane] != there ? 1U << k : 0U;
-        if (elsewhere || seen[lane] != there) {
-          exceptions_.push_back(
-              {static_cast<std::int32_t>(to[lane].as * stride_ + static_cast<std::size_t>(to[lane].to)), seen[lane],
-               static_cast<std::uint8_t>(k), static_cast<std::uint8_t>(lane)});
+        if (to[lane].as != k || to[lane].to != there) {
+          b.streams |= 1U << k;
+          except(gates_, b.gates[0], static_cast<std::int32_t>(to[lane].as * stride_) + to[lane].to, k, lane, false);
+        }
+        if (seen[lane] != there) {
+          b.sees |= 1U << k;
+          const bool wall = seen[lane] >= static_cast<std::int32_t>(stride_) &&
+                            seen[lane] < static_cast<std::int32_t>(stride_ + tags);
+          except(sights_, b.sights[0], seen[lane], k, lane, wall);
         }
       }
     }
-    b.exceptions[1] = exceptions_.size();
+    b.gates[1] = gates_.size();
+    b.sights[1] = sights_.size();
     b.table = known.try_emplace(by, static_cast<std::int32_t>(tables_.size())).first->second;
     if (static_cast<std::size_t>(b.table) == tables_.size()) {
       tables_.push_back(by);
@@ -398,8 +408,20 @@ class simulation {
     }
     runs_.push_back(b);
   }
+  /// Joins the lane to an exception of the batch in the same direction where one fits.
+  static void except(std::vector<exception>& all, std::size_t first, std::int32_t place, std::size_t k,
+                     std::size_t lane, bool same) {
+    const std::int32_t begin = same ? place : place - static_cast<std::int32_t>(lane);
+    for (std::size_t e = all.size(); e > first && all[e - 1].direction == k; --e) {
+      if (all[e - 1].place == begin && all[e - 1].same == same) {
+        all[e - 1].lanes |= 1U << lane;
+        return;
+      }
+    }
+    all.push_back({begin, 1U << lane, static_cast<std::uint8_t>(k), same});
+  }
   [[nodiscard]] static bool plain(const run_of_batches& b) noexcept {
-    return b.used == all_lanes && b.exceptions[0] == b.exceptions[1];
+    return b.used == all_lanes && (b.streams | b.sees) == 0;
   }
 
   /// Images in the order of the first plane that sees them.
@@ -495,10 +517,6 @@ class simulation {
     }
   }
 
-  static constexpr std::size_t reversed(std::size_t i) noexcept {
-    return static_cast<std::size_t>(opposite(static_cast<int>(i)));
-  }
-
   /// Where the numbers of the first batch of a run begin, for each component and direction.
   struct ports {
     const T* from[components][directions];
@@ -533,11 +551,16 @@ class simulation {
       return departure<S>(reversed(i), n, by);  // populations change places in pairs
     }
   }
-  /// The place of what arrives against what leaves through a gate.
+  /// The place of what arrives against what leaves through a gate; gates of a batch may begin before their slot.
   template <stream S>
-  [[nodiscard, gnu::always_inline]] std::size_t against(std::int32_t gate) const noexcept {
-    const auto g = static_cast<std::size_t>(gate);
-    return S == stream::exchange ? g : reversed(g / stride_) * stride_ + g % stride_;
+  [[nodiscard, gnu::always_inline]] std::ptrdiff_t against(std::int32_t gate) const noexcept {
+    if constexpr (S == stream::exchange) {
+      return gate;
+    } else {
+      const auto stride = static_cast<std::ptrdiff_t>(stride_);
+      const std::ptrdiff_t slot = (gate + static_cast<std::ptrdiff_t>(beyond)) / stride;
+      return gate + (static_cast<std::ptrdiff_t>(reversed(static_cast<std::size_t>(slot))) - slot) * stride;
+    }
   }
 
   /// What arrives in one component, with the directions that have exceptions drawn through a buffer.
@@ -557,9 +580,10 @@ class simulation {
         from[reversed(k)] = buffer[k];
       }
     }
-    for (std::size_t e = run.exceptions[0]; e < run.exceptions[1]; ++e) {
-      const exception& x = exceptions_[e];
-      buffer[x.direction][x.lane] = f[against<S>(x.gate)];
+    for (std::size_t e = run.gates[0]; e < run.gates[1]; ++e) {
+      const exception& x = gates_[e];
+      T* const row = buffer[x.direction];
+      number::select(x.lanes, number::load(f + against<S>(x.place)), number::load(row)).store(row);
     }
   }
 
@@ -655,9 +679,11 @@ class simulation {
         seen[k] = buffer[k];
       }
     }
-    for (std::size_t e = run.exceptions[0]; e < run.exceptions[1]; ++e) {
-      const exception& x = exceptions_[e];
-      buffer[x.direction][x.lane] = psi[x.seen];
+    for (std::size_t e = run.sights[0]; e < run.sights[1]; ++e) {
+      const exception& x = sights_[e];
+      T* const row = buffer[x.direction];
+      const number shown = x.same ? number(psi[x.place]) : number::load(psi + x.place);
+      number::select(x.lanes, shown, number::load(row)).store(row);
     }
   }
 
@@ -670,25 +696,21 @@ class simulation {
       there[k] = run.used;
     }
     if constexpr (S == stream::exchange) {
-      for (std::size_t e = run.exceptions[0]; e < run.exceptions[1]; ++e) {
-        const exception& x = exceptions_[e];
-        there[x.direction] &= ~((run.streams >> x.direction & 1U) << x.lane);
+      for (std::size_t e = run.gates[0]; e < run.gates[1]; ++e) {
+        there[gates_[e].direction] &= ~gates_[e].lanes;
       }
     }
     for (std::size_t k = 0; k < directions; ++k) {
       if ((kept >> k & 1U) != 0) {
         T* const to = f + departure<S>(k, run.first, by);
-        for (std::size_t lane = 0; lane < width; ++lane) {
-          to[lane] = (there[k] >> lane & 1U) != 0 ? buffer[k][lane] : to[lane];
-        }
+        number::select(there[k], number::load(buffer[k]), number::load(to)).store(to);
       }
     }
     if constexpr (S == stream::exchange) {
-      for (std::size_t e = run.exceptions[0]; e < run.exceptions[1]; ++e) {
-        const exception& x = exceptions_[e];
-        if ((run.streams >> x.direction & 1U) != 0) {
-          f[x.gate] = buffer[x.direction][x.lane];
-        }
+      for (std::size_t e = run.gates[0]; e < run.gates[1]; ++e) {
+        const exception& x = gates_[e];
+        T* const to = f + x.place;
+        number::select(x.lanes, number::load(buffer[x.direction]), number::load(to)).store(to);
       }
     }
   }
@@ -702,8 +724,8 @@ class simulation {
       const T* const from = slots(f_, stride_, c);
       for (std::size_t i = 0; i < directions; ++i) {
         for (std::size_t lane = 0; lane < width; ++lane) {
-          f[c][i].v[lane] = from[S == stream::turn ? i * stride_ + static_cast<std::size_t>(b.node[lane])
-                                                   : against<S>(b.gate[reversed(i)][lane])];
+          f[c][i].v[lane] = S == stream::turn ? from[i * stride_ + static_cast<std::size_t>(b.node[lane])]
+                                              : from[against<S>(b.gate[reversed(i)][lane])];
         }
       }
       rho[c] = number(static_cast<T>(reservoirs_[b.tag][c]));
@@ -733,7 +755,8 @@ class simulation {
   std::array<densities, tags> reservoirs_;
   std::vector<offsets> tables_;
   std::vector<run_of_batches> runs_;
-  std::vector<exception> exceptions_;
+  std::vector<exception> gates_;
+  std::vector<exception> sights_;
   std::vector<held_batch> held_;
   std::vector<plane> planes_;
   std::vector<image_slots> images_;
