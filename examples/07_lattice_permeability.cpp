@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Lattice permeability: Stokes flow through a periodic packing solved on a lattice between the grains, without a network
-// or a law: what conductance laws are measured against.
+// Lattice permeability: Stokes flow through a periodic packing, solved on a lattice between the grains, without network
+// and law: what conductance laws are measured against.
 //
-// Two lattices, one half as fine again as the other, tell how far the finer one is from the limit. `lattice_permeability
-// --help` lists the options.
+// Two lattices, one half as fine again as the other, tell how far the finer is from the limit.
+// `lattice_permeability --help` lists the options.
 #include "support/keys.hpp"
 #include "support/options.hpp"
 #include "support/packing_options.hpp"
