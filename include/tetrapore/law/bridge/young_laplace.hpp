@@ -26,7 +26,9 @@ namespace tetrapore::inline TETRAPORE_ABI {
 /// \par Accuracy  of the force, κ being what a rounding of gap and value does to it: max(1e-12, 16 κ) on the 402 stable
 ///                rows of open_bridge.csv (worst 0.3 of that) and on random bridges against 24 nodes (worst 0.31),
 ///                unless the force nearly vanishes: then 1e-14 of 2πσ × radius of the contact circle. Stiffness 1e-10
-///                and 1.8e-15 over the distance to the fold (worst 0.2 of that). Folds and lost symmetry 1e-10.
+///                and 1.8e-15 over the distance to the fold (worst 0.2 of that). Folds and lost symmetry
+///                2e-13; 1e-10 of the gap within its limit the bridge is there, as much beyond it is gone, on 60,000
+///                random equal pairs and 16,000 others, at a volume and at a suction.
 ///                Maxwell's relation 4e-13, force at both ends 1.4e-13 of its parts, work against energy 4e-14.
 ///                Stability agrees with finite elements on 2,000 bridges. long double with 20 nodes 1e-17 and 32 κ;
 ///                float 6e-8. On 10⁵ random pairs (radii 1e-4 to a plane, angles to 89.9°) every request at a volume
