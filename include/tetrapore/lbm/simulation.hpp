@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -246,8 +247,8 @@ class simulation {
     std::size_t gates[2];   ///< of `gates_`
     std::size_t sights[2];  ///< of `sights_`
   };
-  /// Nodes of a batch for which something is elsewhere in a direction, but side by side as they are: a wall returns what
-  /// leaves, a mirror passes it on, the next row has other offsets.
+  /// Nodes of a batch that a wall returns their populations to, a mirror turns round or the next row gives other
+  /// offsets in a direction: side by side there too.
   struct exception {
     std::int32_t place;  ///< + lane: the slot × stride + node where what leaves arrives, or the index of ψ
     std::uint32_t lanes;
@@ -574,11 +575,10 @@ class simulation {
     if (S == stream::turn || run.streams == 0) {
       return;
     }
-    for (std::size_t k = 0; k < directions; ++k) {
-      if ((run.streams >> k & 1U) != 0) {
-        number::load(from[reversed(k)]).store(buffer[k]);
-        from[reversed(k)] = buffer[k];
-      }
+    for (std::uint32_t left = run.streams; left != 0; left &= left - 1) {
+      const auto k = static_cast<std::size_t>(std::countr_zero(left));
+      number::load(from[reversed(k)]).store(buffer[k]);
+      from[reversed(k)] = buffer[k];
     }
     for (std::size_t e = run.gates[0]; e < run.gates[1]; ++e) {
       const exception& x = gates_[e];
@@ -673,11 +673,10 @@ class simulation {
 
   void see(const run_of_batches& run, const T* psi, const T* (&seen)[directions],
            T (&buffer)[directions][width]) const noexcept {
-    for (std::size_t k = 0; k < directions; ++k) {
-      if ((run.sees >> k & 1U) != 0) {
-        number::load(seen[k]).store(buffer[k]);
-        seen[k] = buffer[k];
-      }
+    for (std::uint32_t left = run.sees; left != 0; left &= left - 1) {
+      const auto k = static_cast<std::size_t>(std::countr_zero(left));
+      number::load(seen[k]).store(buffer[k]);
+      seen[k] = buffer[k];
     }
     for (std::size_t e = run.sights[0]; e < run.sights[1]; ++e) {
       const exception& x = sights_[e];
@@ -700,11 +699,10 @@ class simulation {
         there[gates_[e].direction] &= ~gates_[e].lanes;
       }
     }
-    for (std::size_t k = 0; k < directions; ++k) {
-      if ((kept >> k & 1U) != 0) {
-        T* const to = f + departure<S>(k, run.first, by);
-        number::select(there[k], number::load(buffer[k]), number::load(to)).store(to);
-      }
+    for (std::uint32_t left = kept; left != 0; left &= left - 1) {
+      const auto k = static_cast<std::size_t>(std::countr_zero(left));
+      T* const to = f + departure<S>(k, run.first, by);
+      number::select(there[k], number::load(buffer[k]), number::load(to)).store(to);
     }
     if constexpr (S == stream::exchange) {
       for (std::size_t e = run.gates[0]; e < run.gates[1]; ++e) {
