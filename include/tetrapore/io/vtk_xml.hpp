@@ -110,10 +110,12 @@ namespace detail {
 /// One VTK XML file under way: elements first, then the arrays that they announced.
 class vtk_xml_file {
  public:
-  vtk_xml_file(const std::filesystem::path& path, std::string_view type) : file_(path), type_(type) {
+  /// \param attributes  of the element that is named as the type, with a blank in front
+  vtk_xml_file(const std::filesystem::path& path, std::string_view type, std::string_view attributes = "")
+      : file_(path), type_(type) {
     constexpr bool little = std::endian::native == std::endian::little;
     file_ << "<?xml version=\"1.0\"?>\n<VTKFile type=\"" << type_ << "\" version=\"1.0\" byte_order=\""
-          << (little ? "LittleEndian" : "BigEndian") << "\" header_type=\"UInt64\">\n<" << type_ << ">\n";
+          << (little ? "LittleEndian" : "BigEndian") << "\" header_type=\"UInt64\">\n<" << type_ << attributes << ">\n";
   }
 
   void open(std::string_view tag_and_attributes) { file_ << '<' << tag_and_attributes << ">\n"; }

@@ -169,10 +169,10 @@ template <std::size_t N>
   const double rest = pressure_of(c, {c.main, flat.value});
   // unknowns: logarithms of gas (a, b) and liquid (a, b); p_c rises from 0 in steps that Newton follows
   std::array<double, 4> x{std::log(c.main), std::log(flat.value), std::log(flat.value), std::log(c.main)};
-  const int steps = 1 + static_cast<int>(std::abs(capillary) / (0.02 * rest));
-  if (steps > 1000) {
+  if (!(std::abs(capillary) < 20 * rest)) {
     return refused(coexistence_status::dissolved);
   }
+  const int steps = 1 + static_cast<int>(std::abs(capillary) / (0.02 * rest));
   for (int s = 1; s <= steps; ++s) {
     const double p = capillary * s / steps;
     double moved = 1;

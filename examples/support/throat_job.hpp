@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "support/number_options.hpp"
+#include "support/options.hpp"
+#include "tetrapore/lbm/entry_experiment.hpp"
+#include "tetrapore/simplex/make_opening.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// \file
+/// What throat_experiment is asked on its command line.
+
+namespace support {
+
+struct throat_job {
+  std::array<double, 3> radii{1, 1, 1};
+  std::array<double, 3> gaps{0, 0, 0};  ///< between surfaces: of grains 1 and 2, 2 and 3, 3 and 1
+  double contact_angle = 0;             ///< [degrees]
+  double resolution = 4;                ///< nodes per radius of the inscribed circle
+  double retraction = 1.1;              ///< [nodes]
+  double bracket = 0.03;                ///< width of the last bracket
+  bool in_double = false;
+  std::filesystem::path out;
+};
+
+/// \throw tetrapore::parameter_error  where no triangle has such sides
+[[nodiscard]] inline tetrapore::opening<double> throat_of(const throat_job& job) {
+  const auto& r = job.radii;
+  const auto& g = job.gaps;
+  const auto o = tetrapore::opening_from_distances<double>(r[0], r[1], r[2], r[0] + r[1] + g[0], r[0] + r[2] + g[2],
+                                                           r[1] + r[2] + g[1]);
+  if (!o.ok()) {
+    throw tetrapore::parameter_error("--radii and --gaps", describe(o.reason), "three grains around a throat");
+  }
+  return o.value;
+}
+
+/// The experiment of a job, its lattice as fine as the resolution asks.
+[[nodiscard]] inline tetrapore::lbm::entry_set_up set_up_of(const throat_job& job) {
+  tetrapore::lbm::entry_set_up s;
+  s.throat = throat_of(job);
+  s.contact_angle = job.contact_angle * tetrapore::pi<double> / 180;
+  s.retraction = job.retraction;
+  s.nodes_per_length = job.resolution / tetrapore::lbm::plane_entry_of(s.throat, s.sides, s.contact_angle).inscribed;
+  return s;
+}
+
+/// Reads the command line; empty when only help was asked for, which is then printed.
+/// \throw tetrapore::parameter_error  names the option, what it was given and what it takes
+[[nodiscard]] inline std::optional<throat_job> read_throat_job(int argc, char** argv) {
+  throat_job job;
+  std::vector<std::string> radii{"1", "1", "1"};
+  std::vector<std::string> gaps{"0", "0", "0"};
+  std::string precision = "float";
+  std::string out = "throat_experiment_out";
+
+  CLI::App app("Entry pressure of a throat of three grains by a lattice Boltzmann experiment.", "throat_experiment");
+  app.add_option("--radii", radii, "radii of the grains, in any unit")->expected(3)->capture_default_str();
+  app.add_option("--gaps", gaps, "gaps between surfaces 1-2, 2-3, 3-1, in the unit of the radii")
+      ->expected(3)
+      ->capture_default_str();
+  number_options numbers(app);
+  numbers.add("--contact-angle", job.contact_angle, acute_angle, "contact angle [degrees]");
+  numbers.add("--resolution", job.resolution,
+              {"a number from 2 to 40 [nodes]", [](double x) { return x >= 2 && x <= 40; }},
+              "nodes per radius of the inscribed circle");
+  numbers.add("--retraction", job.retraction,
+              {"a number from 0 to 4 [nodes]", [](double x) { return x >= 0 && x <= 4; }},
+              "nodes by which grains shrink: room for the film");
+  numbers.add("--bracket", job.bracket, {"a number from 0.001 to 0.5", [](double x) { return x >= 0.001 && x <= 0.5; }},
+              "width of the last bracket, relative");
+  app.add_option("--precision", precision, "float or double")->capture_default_str();
+  app.add_option("--out", out, "folder for the files; a state in it is taken up")->capture_default_str();
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    std::fputs(app.help().c_str(), stdout);
+    return std::nullopt;
+  } catch (const CLI::ParseError& e) {
+    throw tetrapore::parameter_error("command line", e.what(), "options as --help lists them");
+  }
+  numbers.read();
+  for (std::size_t k = 0; k < 3; ++k) {
+    job.radii[k] = number_of("--radii", radii[k], above_zero.accepts, above_zero.expected);
+    job.gaps[k] = number_of("--gaps", gaps[k], zero_or_more.accepts, zero_or_more.expected);
+  }
+  job.in_double = choice_of("--precision", precision, {"float", "double"}) == "double";
+  job.out = folder_of("--out", out);
+  return job;
+}
+
+}  // namespace support
