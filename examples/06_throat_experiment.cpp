@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Entry pressure of a throat by experiment: three grains, gas above, wetting liquid below, and a capillary pressure that
-// is held until the meniscus rests or has gone through. Bisection narrows the bracket.
+// Entry pressure of a throat by experiment: three grains, gas above, wetting liquid below, and a capillary pressure
+// that is held until the meniscus rests or has gone through. Bisection narrows the bracket.
 //
 // A run that is killed goes on from the state in its folder. `throat_experiment --help` lists the options,
 // docs/throat_experiment.md says what comes out.

@@ -87,9 +87,9 @@ struct search_options {
   std::uint32_t most_widenings = 8;
 };
 
-/// Bisection from a bracket that need not hold the threshold: an end that turns out to lie on the other side becomes the
-/// other end, and a new one is sought beyond. Values go up wherever they can: the first is the lower end. A hold that
-/// ends while the fluid still creeps was close to the threshold: values half a width above and below decide instead.
+/// Bisection from a bracket that need not hold the threshold: an end that turns out to lie on the other side becomes
+/// the other end, and a new one is sought beyond. Values go up wherever they can: the first is the lower end. A hold
+/// that ends while the fluid still creeps was close to the threshold: values half a width above and below decide.
 class threshold_search {
  public:
   /// Everything that a search remembers. Plain numbers, to be saved as they are.
