@@ -53,7 +53,8 @@ inline constexpr calibrated_pair pair_18{1.8, 1.003, 1.99526, 0.5, 0.0877, 0.087
 /// What an entry pressure measured with r_in nodes is to be multiplied by: films and interfaces of finite width.
 /// \par Domain    θ = 0, grains retracted by 1.1 nodes, `pair_18`, r_in from 2 nodes
 /// \par Accuracy  5 % from r_in = 4 on. Calibrated on three equal touching spheres at r_in = 2.3, 3.0 and 4.0 alone,
-///                against their Surface Evolver value; with gaps of 0.4 R what is left is −12, −5, −1 % there
+///                against their Surface Evolver value; with gaps of 0.4 R −12, −5, 0, +4 % are left at
+///                2.3, 3.0, 4.0 and 8.4 nodes
 [[nodiscard]] constexpr double entry_correction(double inscribed) noexcept {
   return 1 + 0.91 / (inscribed * inscribed);
 }
