@@ -25,9 +25,11 @@ of the coordinates and radii of the opening relative to its extent, 32 stands fo
 1 : 1 : 1e-5 has κ = 4e5: rounding its distances to double costs more than the law does. So *max rel err* is the error as it
 stands, and *max rel err per condition* the one to hold against *stated accuracy*.
 
-Bridges and resistances of a pair have no such condition: the exact bridge is held, for each of its results, to the larger of its
-stated accuracy and 16 times what rounding the gap and the given volume or suction does to that result, *per condition* scaled
-accordingly; an approximation to the relative error of the force that it states, on the rows of the table and on a map over its
+Bridges and resistances of a pair have no such condition: the exact bridge is held, for each of its results, to its stated
+accuracy times the larger of 1 and 16 κ / 1e-12, κ being what rounding the gap and the given volume or suction does to that result,
+*per condition* scaled accordingly. Its derivatives may be off by 1e-10 and 1.8e-15 over the distance to the fold: that is what *max rel
+err derivative* shows on the rows next to folds. Many rows stand there or hold much liquid, so the mean time is that of a march, not of
+the bridge of a common pair. Held otherwise: an approximation to the relative error of the force that it states, on the rows of the table and on a map over its
 domain (equal spheres, 1 : 2, 1 : 10 and a plane; θ to 50°; V/R³ from 1e-6 to 0.1; gaps to 0.9 of the rupture gap), whose truth is the
 exact law: *rows of map*, and what the table alone shows is *max rel err of table*. A table of bridges is held to its error in the
 largest force that it holds; a resistance to the error of each mode, the leading order's in the unit in which it fades as the gap

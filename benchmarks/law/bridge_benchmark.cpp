@@ -4,8 +4,8 @@
 // with 24 nodes, in 2πRσ (R of Derjaguin), on what the row is timed on; `failed`, the stable bridges of
 // tests/truth/bridge_stable.csv (402, 221 of them at a volume) under the row's control that get no answer, or one off
 // by more than a tenth of the force. Pairs of one material, θ = 20°: spheres of one size or two, V/R³ = 1e-3 to 0.1,
-// gaps up to 0.9 of the rupture gap; distinct, in random order, each law on those that it covers. Warm rows step the
-// gap of 4096 pairs by 0.2 % of the rupture gap, to and fro.
+// gaps up to 0.9 of the rupture gap; distinct, in random order, each law on those that it covers. `wetted` rows:
+// θ = 0. Warm rows step the gap of 4096 pairs by 0.002 ∛V, to and fro.
 
 #include "support/csv_table.hpp"
 #include "tetrapore/law/bridge.hpp"
@@ -15,6 +15,7 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
@@ -29,9 +30,14 @@ namespace {
 using namespace tetrapore;
 
 constexpr std::size_t input_count = std::size_t{1} << 12;
-constexpr double angle = pi<double> / 9;
+enum class shape { equal, unequal, wetted };  ///< wetted: equal, θ = 0
+constexpr double angle_of(shape s) { return s == shape::wetted ? 0 : pi<double> / 9; }
 
-enum class shape { equal, unequal };
+/// One value for each shape, all made at the first use.
+template <class Make>
+[[nodiscard]] auto for_each_shape(Make make) {
+  return std::array{make(shape::equal), make(shape::unequal), make(shape::wetted)};
+}
 
 struct request {
   edge<double> e;
@@ -46,14 +52,14 @@ struct request {
 /// Requests with their exact answers. Unequal: the second radius is half the first.
 const std::vector<request>& requests(shape s) {
   static const auto made = [](shape which) {
-    const young_laplace<24> exact{1.0, angle, angle};
-    const young_laplace<> quick{1.0, angle, angle};
+    const young_laplace<24> exact{1.0, angle_of(which), angle_of(which)};
+    const young_laplace<> quick{1.0, angle_of(which), angle_of(which)};
     std::mt19937_64 random(11);
     std::uniform_real_distribution<double> uniform(0, 1);
     std::vector<request> all;
     while (all.size() < input_count) {
       const double size = 0.5 + uniform(random);
-      request r{{size, which == shape::equal ? size : size / 2, 0, {0, 0, 1}}, 0, 0, 0, 0};
+      request r{{size, which == shape::unequal ? size / 2 : size, 0, {0, 0, 1}}, 0, 0, 0, 0};
       const double radius = detail::derjaguin_radius(r.e);
       r.volume = std::pow(10, -3 + 1.99 * uniform(random)) * 1.001 * radius * radius * radius;
       const auto limit = quick.rupture_gap(r.e, given_volume<double>{r.volume});
@@ -69,9 +75,8 @@ const std::vector<request>& requests(shape s) {
     }
     return all;
   };
-  static const std::vector<request> equal = made(shape::equal);
-  static const std::vector<request> unequal = made(shape::unequal);
-  return s == shape::equal ? equal : unequal;
+  static const auto all = for_each_shape(made);
+  return all[static_cast<std::size_t>(s)];
 }
 
 template <class Given>
@@ -131,7 +136,7 @@ const std::vector<request>& held(shape s) {
     return requests(s);
   } else {
     static const auto chosen = [](shape which) {
-      const young_laplace<24> exact{1.0, angle, angle};
+      const young_laplace<24> exact{1.0, angle_of(which), angle_of(which)};
       std::vector<request> some;
       std::copy_if(requests(which).begin(), requests(which).end(), std::back_inserter(some), [&](const request& r) {
         const auto a = exact.bridge(precise(r.e), given_suction<long double>{r.suction});
@@ -139,9 +144,8 @@ const std::vector<request>& held(shape s) {
       });
       return some;
     };
-    static const std::vector<request> equal = chosen(shape::equal);
-    static const std::vector<request> unequal = chosen(shape::unequal);
-    return s == shape::equal ? equal : unequal;
+    static const auto all = for_each_shape(chosen);
+    return all[static_cast<std::size_t>(s)];
   }
 }
 
@@ -167,7 +171,7 @@ void time_law(benchmark::State& state, const Law& law, const std::vector<request
 
 template <class Law, class Given>
 void cold(benchmark::State& state, shape s) {
-  time_law<Given>(state, law_for<Law>(angle, angle), held<Given>(s));
+  time_law<Given>(state, law_for<Law>(angle_of(s), angle_of(s)), held<Given>(s));
   static const double failed =
       failed_hard_cases<Given>([](const edge<double>& e, double angle1, double angle2, const Given& g) {
         using answer = decltype(law_for<Law>(angle1, angle2).bridge(e, g));
@@ -181,7 +185,7 @@ void cold(benchmark::State& state, shape s) {
 template <class Given>
 const std::vector<request>& stepped(shape s) {
   static const auto made = [](shape which) {
-    const young_laplace<24> exact{1.0, angle, angle};
+    const young_laplace<24> exact{1.0, angle_of(which), angle_of(which)};
     std::vector<request> all = held<Given>(which);
     for (request& r : all) {
       request next = r;
@@ -198,16 +202,15 @@ const std::vector<request>& stepped(shape s) {
     }
     return all;
   };
-  static const std::vector<request> equal = made(shape::equal);
-  static const std::vector<request> unequal = made(shape::unequal);
-  return s == shape::equal ? equal : unequal;
+  static const auto all = for_each_shape(made);
+  return all[static_cast<std::size_t>(s)];
 }
 
 template <int Nodes, class Given>
 void warm(benchmark::State& state, shape s) {
   using law_type = young_laplace<Nodes>;
   using warm_state = typename law_type::template warm_state<double>;
-  const law_type law{1.0, angle, angle};
+  const law_type law{1.0, angle_of(s), angle_of(s)};
   const auto& all = held<Given>(s);
   const auto& near = stepped<Given>(s);
   std::vector<warm_state> remembered(all.size());
@@ -258,9 +261,9 @@ void table(benchmark::State& state, shape s) {
   };
   const auto& all = requests(s);
   auto t = std::make_unique<storage>();
-  const double half = s == shape::equal ? 1.0 : 0.5;
+  const double half = s == shape::unequal ? 0.5 : 1.0;
   const double cube = std::pow(detail::derjaguin_radius(edge<double>{1, half, 0, {}}), 3);
-  const table_report report = build({1, half, 0, {}}, angle, angle, 1e-3 * cube, 0.1 * cube, *t);
+  const table_report report = build({1, half, 0, {}}, angle_of(s), angle_of(s), 1e-3 * cube, 0.1 * cube, *t);
   if (report.reason != bridge_status::ok) {
     state.SkipWithError(describe(report.reason));
     return;
@@ -282,7 +285,7 @@ void build_a_table(benchmark::State& state) {
   table_report report{};
   for (auto _ : state) {
     report = t->build(
-        young_laplace<>{1.0, angle, angle},
+        young_laplace<>{1.0, angle_of(shape::equal), angle_of(shape::equal)},
         {.radius1 = 1.0, .radius2 = 1.0, .least_volume = 0.1 / std::ldexp(0.99, Octaves), .largest_volume = 0.1});
   }
   state.counters["error"] = report.error;
@@ -316,6 +319,7 @@ constexpr auto lambert_2008 = cold<lambert<>, volume>;
 constexpr auto rabinovich_2005 = cold<rabinovich<>, volume>;
 constexpr auto soulie_2006 = cold<soulie<>, volume>;
 constexpr auto weigert_1999 = cold<weigert_ripperger<>, volume>;
+constexpr auto mikami_1998 = cold<mikami<>, volume>;
 constexpr auto table_16 = table<16>;
 
 BENCHMARK_CAPTURE(exact_volume_6, equal, shape::equal);
@@ -342,6 +346,8 @@ BENCHMARK_CAPTURE(rabinovich_2005, equal, shape::equal);
 BENCHMARK_CAPTURE(soulie_2006, equal, shape::equal);
 BENCHMARK_CAPTURE(soulie_2006, unequal, shape::unequal);
 BENCHMARK_CAPTURE(weigert_1999, equal, shape::equal);
+BENCHMARK_CAPTURE(mikami_1998, wetted, shape::wetted);
+BENCHMARK_CAPTURE(soulie_2006, wetted, shape::wetted);
 BENCHMARK_TEMPLATE(build_a_table, 10)->Unit(benchmark::kMillisecond);
 BENCHMARK_TEMPLATE(build_a_table, 20)->Unit(benchmark::kMillisecond);
 

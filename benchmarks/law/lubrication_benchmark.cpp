@@ -184,7 +184,7 @@ void forces_by_hand(benchmark::State& state) {
       failed + (std::isfinite(bare_leading_order({1, inf, 0.1, {0, 0, 1}}, in.motions[0]).force1.z) ? 0 : 1);
 }
 
-/// A step of the film alone, and of a wet contact with film, friction and energies.
+/// A step of the film between two grains.
 void film_step(benchmark::State& state) {
   const elastic_film<double> film{1, 1, 0.1, 1};
   double u = 1;

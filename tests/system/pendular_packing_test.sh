@@ -102,7 +102,7 @@ force=$(value mean_force)
 runs "tables for some pairs" beads.txt --volume 1e-6 --law table
 expect tables "== 64"
 expect pairs_without_table "> 0"
-expect table_error "< 1e-5"
+expect table_error "< 1e-6"
 runs "no box" no_box.txt --suction 50
 helps --surface-tension --contact-angle --suction --volume --law --periodic --scale --out
 

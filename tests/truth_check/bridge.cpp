@@ -319,8 +319,8 @@ std::optional<Law> law_of(const map_point& p) {
 
 /// The force by an approximation, on the stable bridges that it says it covers, up to nine tenths of the rupture gap;
 /// between unequal radii, whose rupture it misses by more, up to seven tenths under a volume and half of it under a
-/// suction. Under given volume there is the map of errors
-/// besides, whose points are rows too: `Plain` is the same law without a rupture of its own.
+/// suction. Under given volume there is the map of errors besides, whose points are rows too: `Plain` is the same law
+/// without a rupture of its own.
 template <class Law, class Plain>
 law_report measure_approximation(const std::string& name, const std::vector<bridge_question>& questions,
                                  bool by_volume = true) {

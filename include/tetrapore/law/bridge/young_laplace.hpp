@@ -26,9 +26,9 @@ namespace tetrapore::inline TETRAPORE_ABI {
 /// \par Accuracy  of the force, κ being what a rounding of gap and value does to it: max(1e-12, 16 κ) on the 402 stable
 ///                rows of open_bridge.csv (worst 0.3 of that) and on random bridges against 24 nodes (worst 0.31),
 ///                unless the force nearly vanishes: then 1e-14 of 2πσ × radius of the contact circle. Stiffness 1e-10
-///                and 1.8e-15 over the distance to the fold (worst 0.2 of that). Folds and lost symmetry
-///                2e-13; 1e-10 of the gap within its limit the bridge is there, as much beyond it is gone, on 60,000
-///                random equal pairs and 16,000 others, at a volume and at a suction.
+///                and 1.8e-15 over the distance to the fold (worst 0.2 of that). Folds 6e-15 and lost symmetry 4e-14 on
+///                the tables, both 2e-13 anywhere; 1e-10 of the gap within its limit the bridge is there, as much
+///                beyond it is gone, on 60,000 random equal pairs and 16,000 others, at a volume and at a suction.
 ///                Maxwell's relation 4e-13, force at both ends 1.4e-13 of its parts, work against energy 4e-14.
 ///                Stability agrees with finite elements on 2,000 bridges. long double with 20 nodes 1e-17 and 32 κ;
 ///                float 6e-8. On 10⁵ random pairs (radii 1e-4 to a plane, angles to 89.9°) every request at a volume
@@ -37,10 +37,10 @@ namespace tetrapore::inline TETRAPORE_ABI {
 ///                (`not_converged`, all above 6,000 R³). Much liquid, 0.3 to 150 R³ or k down to −1.5 / R: worst 0.61
 ///                of that against 40 nodes in long double on 6,200 random bridges, none with another status; up to 1e-6
 ///                of the volume at which liquid closes over the grains worst 0.82 of 1e-12 and 16 κ, κ of a rounding of
-///                that whole ball. A bridge that is gone is told by a bound (march.hpp: out_of_reach) in a twentieth of
-///                the time of one that is there, unless the gap is within some 4 to 50 % of the widest: then by a
-///                march, in 20 times as much. On 10⁶ random time steps warm and cold solve never differed in status, in
-///                force by 0.68 of twice the above; work around closed cycles vanished to 1e-13
+///                that whole ball. A bridge that is gone is told by a bound (march.hpp: out_of_reach) in 0.06 µs at a
+///                volume and 0.1 to 0.2 µs at a suction, unless the gap is within some 4 to 50 % of the widest: then by
+///                a march, 15 to 40 µs. On 10⁶ random time steps warm and cold solve never differed in status, in force
+///                by 0.68 of twice the above; work around closed cycles vanished to 1e-13
 /// \par Source  Chareyre et al., EPJ Web Conf. 140, 09027 (2017), §2.3, Eq. (4); profiles of Delaunay (profile.hpp);
 ///              stability by Jacobi's field, derived here (solve_profile.hpp)
 template <int Nodes = 10>

@@ -21,9 +21,9 @@ namespace tetrapore::inline TETRAPORE_ABI {
 /// shear × roll − coupling² = (π μ Λ)² (48/5) a*⁴ for any radii.
 /// \par Units   viscosity [Pa s]; the resistance as in pair_resistance
 /// \par Domain  any radii, sphere and plane; gap > 0 (decays as 1/h beyond the radius, without a limit of its own)
-/// \par Accuracy  rounding: 8 epsilon. Of the physics, against two_spheres: docs/lubrication.md. Squeeze is short by
-///                −(9/10) ξ ln(1/ξ) of itself for equal grains (−1.1e-3 at ξ = h/a = 1e-4, −6.4 % at 0.01, −33 % at
-///                0.1); shear, coupling and roll by a bounded part beside ln(1/ξ)
+/// \par Accuracy  rounding: 8 epsilon. Of the physics, against two_spheres: docs/lubrication.md. Squeeze is short, to
+///                leading order by (9/10) ξ ln(1/ξ) of itself for equal grains (1.1e-3 at ξ = h/a = 1e-4, 6.4 % at
+///                0.01, 33 % at 0.1); shear, coupling and roll by a bounded part beside ln(1/ξ)
 /// \par Source  Chareyre et al., EPJ Web Conf. 140, 09027 (2017), §2.2, Eq. (2) and (3); unequal radii: own derivation,
 ///              the singular parts of Jeffrey & Onishi 1984, J. Fluid Mech. 139, 261, put into objective form
 struct leading_order {
