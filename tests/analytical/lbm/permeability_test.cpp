@@ -2,6 +2,7 @@
 //
 // Permeability by lattice Boltzmann, of simple cubic spheres against Zick & Homsy (J. Fluid Mech. 115, 13, 1982).
 
+#include "support/sanitized.hpp"
 #include "tetrapore/lbm/permeability.hpp"
 
 #include <doctest/doctest.h>
@@ -34,6 +35,9 @@ bool refused(const periodic_spheres& p, int nodes, std::size_t axis, const perme
 TEST_CASE("simple cubic spheres resist as Zick and Homsy say, and closer with more nodes") {
   // drag / (6πμaU) of three solid fractions; the lattice's error is first order, about one per width of a sphere
   for (const auto& [fraction, drag] : {std::array{0.343, 15.4}, std::array{0.45, 28.1}, std::array{0.5236, 42.1}}) {
+    if (sanitized && fraction < 0.5) {
+      continue;
+    }
     const periodic_spheres p = simple_cubic(fraction);
     const double exact = 1 / (6 * std::numbers::pi * p.spheres[0].radius * drag);
     const auto k = measure_permeability(p, 24, 0);

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// A step commutes with mirrors on the axes to the last bit, with rotations to rounding.
+#include "support/lattice_states.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+using namespace lattice_states;
+
+TEST_CASE_TEMPLATE("the mirror image of a state stays the mirror image, to the last bit", Model, plain,
+                   unless_sanitized<mixture<d3q19, trt, guo>>, unless_sanitized<mixture<d3q27, regularised, guo>>) {
+  using map_type = site_map<typename Model::lattice_type>;
+  const place size{8, 6, 7};
+  const auto all_fluid = [](int, int, int) { return site{}; };
+  simulation<Model, double> here(repelling<Model>(), map_type(box_of(size), all_fluid));
+  simulation<Model, double> there(repelling<Model>(), map_type(box_of(size), all_fluid));
+  const auto image = [&](const place& p) { return place{size[0] - 1 - p[0], p[1], p[2]}; };
+  stir(here, as_it_is);
+  stir(there, image, -1);
+  here.run(50);
+  there.run(50);
+  std::size_t differing = 0;
+  for (std::size_t n = 0; n < here.sites().size(); ++n) {
+    const place p = image(here.sites().place(n));
+    const auto m = static_cast<std::size_t>(there.sites().node_at(p[0], p[1], p[2]));
+    for (std::size_t c = 0; c < 2; ++c) {
+      for (std::size_t i = 0; i < Model::directions; ++i) {
+        const auto j = static_cast<std::size_t>(mirrored<typename Model::lattice_type>(static_cast<int>(i), 0));
+        differing += here.population(c, n, i) != there.population(c, m, j) ? 1U : 0U;
+      }
+    }
+  }
+  CHECK(differing == 0);
+}
+
+TEST_CASE("a box between mirrors is a quarter of the periodic box of all its images, to the last bit") {
+  using model = plain;
+  const place size{5, 7, 6};
+  const auto all_fluid = [](int, int, int) { return site{}; };
+  lattice_box part = box_of(size, face_kind::mirror);
+  part.low[2] = part.high[2] = face_kind::periodic;
+  simulation<model, double> quarter(repelling<model>(), {part, all_fluid});
+  simulation<model, double> whole(repelling<model>(), {box_of({10, 14, 6}), all_fluid});
+  const auto fold = [&](const place& p) {
+    return place{p[0] < 5 ? p[0] : 9 - p[0], p[1] < 7 ? p[1] : 13 - p[1], p[2]};
+  };
+  const auto rest = [&](auto& s) {
+    s.initialise([&](const place& p, auto& rho, auto&) {
+      rho[0] = 0.2 + 0.7 * noise(fold(p), 1);
+      rho[1] = 0.2 + 0.7 * noise(fold(p), 2);
+    });
+  };
+  rest(quarter);
+  rest(whole);
+  quarter.run(41);
+  whole.run(41);
+  std::size_t differing = 0;
+  for (std::size_t n = 0; n < quarter.sites().size(); ++n) {
+    const place p = quarter.sites().place(n);
+    const auto m = static_cast<std::size_t>(whole.sites().node_at(p[0], p[1], p[2]));
+    for (std::size_t i = 0; i < 19; ++i) {
+      differing += quarter.population(0, n, i) != whole.population(0, m, i) ? 1U : 0U;
+      differing += quarter.population(1, n, i) != whole.population(1, m, i) ? 1U : 0U;
+    }
+  }
+  CHECK(differing == 0);
+}
+
+TEST_CASE("a box turned by a right angle stays the turned one, to rounding") {
+  using model = unless_sanitized<mixture<d3q19, trt, guo>>;
+  const auto all_fluid = [](int, int, int) { return site{}; };
+  simulation<model, double> here(repelling<model>(), {box_of({6, 7, 8}), all_fluid});
+  simulation<model, double> there(repelling<model>(), {box_of({7, 6, 8}), all_fluid});
+  // (x, y) of here is (y, 5 − x) of there
+  const auto rest = [](auto& s, auto of) {
+    s.initialise([&](const place& p, auto& rho, auto&) {
+      rho[0] = 0.2 + 0.7 * noise(of(p), 1);
+      rho[1] = 0.2 + 0.7 * noise(of(p), 2);
+    });
+  };
+  rest(here, as_it_is);
+  rest(there, [](const place& p) { return place{5 - p[1], p[0], p[2]}; });
+  here.run(40);
+  there.run(40);
+  double worst = 0;
+  for (std::size_t n = 0; n < here.sites().size(); ++n) {
+    const place p = here.sites().place(n);
+    const auto m = static_cast<std::size_t>(there.sites().node_at(p[1], 5 - p[0], p[2]));
+    worst = std::max(worst, std::abs(here.density(0, n) - there.density(0, m)));
+  }
+  CHECK(worst < 1e-13);
+}
