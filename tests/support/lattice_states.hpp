@@ -17,8 +17,7 @@ namespace lattice_states {
 using namespace tetrapore::lbm;
 using place = std::array<int, 3>;
 
-/// A model that a sanitized build replaces by the plainest one, which is instantiated anyway: to compile each costs half
-/// a minute there.
+/// A sanitized build takes the plainest model in place of others: to compile each of them costs half a minute there.
 using plain = mixture<d3q19, bgk>;
 template <class Model>
 using unless_sanitized = std::conditional_t<sanitized, plain, Model>;
