@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/pressure_truth.hpp"
+#include "support/sanitized.hpp"
 #include "tetrapore/solver/ldlt.hpp"
 #include "tetrapore/solver/multigrid.hpp"
 
@@ -61,6 +62,9 @@ TEST_CASE_TEMPLATE("16,000 nodes: the true error stays below 1e-8 at any contras
   for (const row& r : {row{1.4, 0, 1, 9e11}, row{2.0, 0, 1, 1.2e17}, row{1.0, 0.1, 1e-10, 1e18},
                        row{1.4, 0.1, 1e-10, 1e20}, row{2.0, 0.1, 1e-10, 1e25}, row{1.0, 0.4, 1e-18, 1e25},
                        row{1.4, 0.4, 1e-18, 1e28}, row{2.0, 0.4, 1e-18, 1e33}}) {
+    if (sanitized && r.power < 2) {
+      continue;
+    }
     pressure_case c = packing_like(25, r.power, 21);
     scale_some(c, r.share, r.factor, 4);
     CAPTURE(r.power);
