@@ -355,8 +355,8 @@ class simulation {
     }
     offsets by{};
     for (std::size_t k = 0; k < directions; ++k) {
-      typename site_map<lattice_type>::link to[width];
-      std::int32_t seen[width];
+      typename site_map<lattice_type>::link to[width]{};
+      std::int32_t seen[width]{};
       std::size_t most = 0;  // the offset of most nodes is that of the batch
       for (std::size_t lane = 0; lane < width; ++lane) {
         if ((b.used >> lane & 1U) != 0) {
