@@ -24,7 +24,7 @@ namespace tetrapore::inline TETRAPORE_ABI {
 /// \par Domain  0 ≤ θ < 90° on either surface (angle k on the surface of radius k); gap > −R; any volume or suction.
 ///              float, double, long double; float computes in double
 /// \par Accuracy  of the force, κ being what a rounding of gap and value does to it: max(1e-12, 16 κ) on the 402 stable
-///                rows of open_bridge.csv (worst 0.3 of that) and on random bridges against 24 nodes (worst 0.31),
+///                rows of open_bridge.csv (worst 0.44 of that) and on random bridges against 24 nodes (worst 0.31),
 ///                unless the force nearly vanishes: then 1e-14 of 2πσ × radius of the contact circle. Stiffness 1e-10
 ///                and 1.8e-15 over the distance to the fold (worst 0.2 of that). Folds 6e-15 and lost symmetry 4e-14 on
 ///                the tables, both 2e-13 anywhere; 1e-10 of the gap within its limit the bridge is there, as much
