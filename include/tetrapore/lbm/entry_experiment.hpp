@@ -32,7 +32,7 @@ inline constexpr calibrated_pair pair_18{1.8, 1.003, 1.99526, 0.5, 0.0877, 0.087
 /// The densities that a wall shows where the contact angle is θ; at 0 those of the liquid itself, twice what the angle
 /// asks for, so that a film covers the wall.
 /// \par Units     lattice units; θ [rad], 0 to below π/2
-/// \par Accuracy  of the angle 3° at best: a rule of ψ = ρ, no fit
+/// \par Accuracy  above 0 not measured: a rule of ψ = ρ, no fit
 /// \par Source    Huang, Thorne, Schaap & Sukop, Phys. Rev. E 76, 066701 (2007), with the wall's densities as strength
 [[nodiscard]] inline std::array<double, 2> wall_densities(const coexistence& pair, double contact_angle) {
   const auto dissolved = dissolved_density(pair);
