@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "tetrapore/lbm/sites.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <utility>
+#include <vector>
+
+/// \file
+/// Where nodes and what surrounds them lie in memory.
+///
+/// A cell is a node, or a place that some node's population leaves to without being one: in a wall, beyond a mirror,
+/// beyond an end of the box. Cells of a row (z runs; y in a lattice of one layer) lie side by side, so the neighbours
+/// of side by side nodes do too, walls or none, and a step runs along rows without asking. What lies in a cell that is
+/// no node belongs to one link: it is copied from and to where the link really leads.
+
+namespace tetrapore::inline TETRAPORE_ABI {
+namespace lbm {
+
+/// Cells of a site_map, and its nodes in runs of neighbours.
+/// \tparam Turned  populations lie in the slot against their direction (what leaves a node stays there to be pulled)
+template <lattice L, bool Turned>
+class row_layout {
+ public:
+  static constexpr std::size_t directions = L::directions;
+  using places = std::array<std::int64_t, directions>;
+  using offsets = std::array<std::int32_t, directions>;
+
+  /// Nodes side by side, none of a reservoir.
+  struct run {
+    std::int32_t cell;  ///< of the first node
+    std::int32_t nodes;
+    std::int32_t table;  ///< of the neighbours
+  };
+  /// In direction k of a run's first node: where what leaves arrives, less the place of the node's slot 0; which cell
+  /// it sees, less its own.
+  struct neighbours {
+    places to;
+    offsets seen;
+    friend bool operator<(const neighbours& a, const neighbours& b) noexcept {
+      return std::pair(a.to, a.seen) < std::pair(b.to, b.seen);
+    }
+  };
+  /// What a node sends to a cell that is no node, and where it belongs.
+  struct link {
+    std::uint32_t cell;
+    std::uint32_t gate;
+  };
+  /// A cell that shows the ψ of another.
+  struct copy {
+    std::int32_t to;
+    std::int32_t from;
+  };
+  struct wall {
+    std::int32_t cell;
+    std::uint8_t tag;
+  };
+  struct image {
+    std::int32_t cell;
+    std::int32_t index;  ///< of the map's images
+    int first_user;      ///< x of the first plane whose nodes see it
+  };
+  /// What of all lists belongs to nodes of one x.
+  struct plane {
+    std::size_t first_run, last_run;
+    std::size_t first_link, last_link;
+    std::size_t first_copy, last_copy;
+  };
+
+  row_layout() = default;
+  /// \param lanes  so many cells beyond a run may be read and written as they were
+  row_layout(const site_map<L>& map, std::size_t lanes, std::size_t per_cache_line) : map_(&map), lanes_(lanes) {
+    along_ = map.box().size[2] == 1 ? 1 : 2;
+    across_ = 3 - along_;
+    length_ = static_cast<std::size_t>(map.box().size[along_]) + 2;
+    mark_cells();
+    number_cells(per_cache_line);
+    for (std::size_t x = 0; x < map.plane_count(); ++x) {
+      add_plane(x);
+    }
+    sort_copies();
+    std::stable_sort(images_.begin(), images_.end(),
+                     [](const image& a, const image& b) { return a.first_user < b.first_user; });
+    at_ = {};
+    content_ = {};
+    known_ = {};
+    pending_ = {};
+    map_ = nullptr;
+  }
+
+  [[nodiscard]] std::int32_t cell(std::size_t node) const noexcept { return cells_[node]; }
+  /// Cells, an idle one behind all others included.
+  [[nodiscard]] std::size_t cells() const noexcept { return count_ + 1; }
+  [[nodiscard]] std::int32_t idle() const noexcept { return static_cast<std::int32_t>(count_); }
+  /// Numbers between the slots of a cell.
+  [[nodiscard]] std::size_t stride() const noexcept { return stride_; }
+  [[nodiscard]] std::size_t place(std::int32_t cell, std::size_t slot) const noexcept {
+    return slot * stride_ + static_cast<std::size_t>(cell);
+  }
+  /// Where what leaves a node along a link of the map is stored for its receiver.
+  [[nodiscard]] std::size_t gate(const typename site_map<L>::link& l) const noexcept {
+    return place(cells_[static_cast<std::size_t>(l.to)], slot(l.as));
+  }
+  /// Nodes of the longest run.
+  [[nodiscard]] std::size_t longest() const noexcept { return longest_; }
+  [[nodiscard]] const std::vector<plane>& planes() const noexcept { return planes_; }
+  [[nodiscard]] const std::vector<run>& runs() const noexcept { return runs_; }
+  [[nodiscard]] const std::vector<neighbours>& tables() const noexcept { return tables_; }
+  [[nodiscard]] const std::vector<link>& links() const noexcept { return links_; }
+  [[nodiscard]] const std::vector<copy>& copies() const noexcept { return copies_; }
+  [[nodiscard]] const std::vector<wall>& walls() const noexcept { return walls_; }
+  [[nodiscard]] const std::vector<image>& images() const noexcept { return images_; }
+  /// Where a row of ψ of walls of tag 0 begins, as long as the longest run, for faces of the box that are walls.
+  [[nodiscard]] std::int32_t face() const noexcept { return idle() + 1; }
+
+ private:
+  static constexpr std::int32_t none = site_map<L>::none;
+
+  [[nodiscard]] static constexpr std::size_t slot(int as) noexcept {
+    return static_cast<std::size_t>(Turned ? opposite(as) : as);
+  }
+
+  [[nodiscard]] std::size_t row_of(const std::array<int, 3>& p) const noexcept {
+    return static_cast<std::size_t>(p[0]) * static_cast<std::size_t>(map_->box().size[across_]) +
+           static_cast<std::size_t>(p[across_]);
+  }
+  /// The cell at a place of a row; the row's own ends are at −1 and its length.
+  [[nodiscard]] std::int32_t& at(std::size_t row, int a) noexcept {
+    return at_[row * length_ + static_cast<std::size_t>(a + 1)];
+  }
+
+  /// The row that direction k leads to, and the direction as the faces of the box turn it.
+  struct beyond {
+    bool wall;  ///< a face that is a wall
+    std::size_t row;
+    int as;
+  };
+  [[nodiscard]] beyond look(std::array<int, 3> p, int k) const noexcept {
+    const lattice_box& box = map_->box();
+    auto c = L::velocity[static_cast<std::size_t>(k)];
+    for (const std::size_t a : {std::size_t{0}, across_}) {
+      p[a] += c[a];
+      const bool below = p[a] < 0;
+      if (!below && p[a] < box.size[a]) {
+        continue;
+      }
+      switch (below ? box.low[a] : box.high[a]) {
+        case face_kind::periodic: p[a] = below ? box.size[a] - 1 : 0; break;
+        case face_kind::mirror:
+          p[a] -= c[a];
+          c[a] = -c[a];
+          break;
+        case face_kind::wall: return {true, 0, opposite(k)};
+      }
+    }
+    return {false, row_of(p), direction_of<L>(c[0], c[1], c[2])};
+  }
+  [[nodiscard]] int step_along(int k) const noexcept { return L::velocity[static_cast<std::size_t>(k)][along_]; }
+
+  void mark_cells() {
+    const auto rows =
+        static_cast<std::size_t>(map_->box().size[0]) * static_cast<std::size_t>(map_->box().size[across_]);
+    at_.assign(rows * length_, none);
+    for (std::size_t n = 0; n < map_->size(); ++n) {
+      const auto& p = map_->place(n);
+      for (int k = 0; k < static_cast<int>(directions); ++k) {
+        const beyond b = look(p, k);
+        if (!b.wall) {
+          at(b.row, p[along_] + step_along(k)) = 0;
+        }
+      }
+    }
+  }
+
+  /// Lines of 64 bytes between the slots of a cell are 27 + a multiple of 64: no two slots share a set of the cache.
+  void number_cells(std::size_t per_line) {
+    std::size_t next = 0;
+    for (std::size_t k = 0; k < at_.size(); ++k) {
+      if (at_[k] != none) {
+        at_[k] = static_cast<std::int32_t>(next++);
+      }
+    }
+    count_ = next;
+    const std::size_t lines = (next + 2 * lanes_ + 2) / per_line + 1;
+    stride_ = (lines + (27 + 64 - lines % 64) % 64) * per_line;
+    if (stride_ * directions > std::numeric_limits<std::uint32_t>::max()) {
+      throw parameter_error("lattice", "more cells than an index holds", "fewer than 2^32 populations");
+    }
+    cells_.resize(map_->size());
+    for (std::size_t n = 0; n < cells_.size(); ++n) {
+      const auto& p = map_->place(n);
+      cells_[n] = at(row_of(p), p[along_]);
+    }
+    content_.assign(count_, false);
+  }
+
+  void add_plane(std::size_t x) {
+    plane p{runs_.size(), 0, links_.size(), 0, 0, 0};
+    const auto end = static_cast<std::size_t>(map_->plane_begin(x + 1));
+    for (auto n = static_cast<std::size_t>(map_->plane_begin(x)); n < end;) {
+      if (map_->at(n).kind == site_kind::reservoir) {
+        ++n;
+        continue;
+      }
+      std::size_t upto = n + 1;
+      while (upto < end && map_->at(upto).kind != site_kind::reservoir && follows(upto)) {
+        ++upto;
+      }
+      add_run(n, upto);
+      n = upto;
+    }
+    p.last_run = runs_.size();
+    p.last_link = links_.size();
+    planes_.push_back(p);
+  }
+  [[nodiscard]] bool follows(std::size_t n) const noexcept {
+    auto p = map_->place(n - 1);
+    ++p[along_];
+    return p == map_->place(n);
+  }
+
+  void add_run(std::size_t first, std::size_t last) {
+    const auto& p = map_->place(first);
+    const std::int32_t cell = cells_[first];
+    neighbours by{};
+    for (int k = 0; k < static_cast<int>(directions); ++k) {
+      const beyond b = look(p, k);
+      const std::int32_t there = b.wall ? cell : at(b.row, p[along_] + step_along(k));
+      const auto d = static_cast<std::size_t>(k);
+      by.to[d] = static_cast<std::int64_t>(place(there, slot(b.as))) - static_cast<std::int64_t>(place(cell, 0));
+      by.seen[d] = b.wall ? face() - cell : there - cell;
+      for (std::size_t n = first; n < last && k != 0; ++n) {
+        const auto virtual_cell = there + static_cast<std::int32_t>(n - first);
+        const std::size_t virtual_place = place(virtual_cell, slot(b.as));
+        const std::size_t really = gate(map_->leaving(n, k));
+        if (really != virtual_place) {
+          links_.push_back({static_cast<std::uint32_t>(virtual_place), static_cast<std::uint32_t>(really)});
+        }
+        if (!b.wall) {
+          show(virtual_cell, map_->seen(n, k), p[0]);
+        }
+      }
+    }
+    const auto known = known_.try_emplace(by, static_cast<std::int32_t>(tables_.size()));
+    if (known.second) {
+      tables_.push_back(by);
+    }
+    runs_.push_back({cell, static_cast<std::int32_t>(last - first), known.first->second});
+    longest_ = std::max(longest_, last - first);
+  }
+
+  /// What a cell that is no node shows, the first time that it is seen; planes see in the order of x.
+  void show(std::int32_t cell, const typename site_map<L>::sight& s, int x) {
+    if ((s.node != none && cells_[static_cast<std::size_t>(s.node)] == cell) ||
+        content_[static_cast<std::size_t>(cell)]) {
+      return;
+    }
+    content_[static_cast<std::size_t>(cell)] = true;
+    if (s.node != none) {
+      pending_.push_back(
+          {map_->place(static_cast<std::size_t>(s.node))[0], {cell, cells_[static_cast<std::size_t>(s.node)]}});
+    } else if (s.image != none) {
+      images_.push_back({cell, s.image, x});
+    } else {
+      walls_.push_back({cell, s.wall});
+    }
+  }
+
+  void sort_copies() {
+    std::stable_sort(pending_.begin(), pending_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::size_t next = 0;
+    for (std::size_t x = 0; x < planes_.size(); ++x) {
+      planes_[x].first_copy = next;
+      for (; next < pending_.size() && pending_[next].first == static_cast<int>(x); ++next) {
+        copies_.push_back(pending_[next].second);
+      }
+      planes_[x].last_copy = next;
+    }
+  }
+
+  const site_map<L>* map_ = nullptr;  ///< while the layout is made
+  std::size_t lanes_ = 0;
+  std::size_t along_ = 2;   ///< the axis of rows
+  std::size_t across_ = 1;  ///< the other one of a plane
+  std::size_t length_ = 0;  ///< of a row, its two ends beyond the box included
+  std::size_t count_ = 0;
+  std::size_t stride_ = 0;
+  std::size_t longest_ = 0;
+  std::vector<std::int32_t> at_;  ///< the cell at a place of a row
+  std::vector<std::int32_t> cells_;
+  std::vector<bool> content_;  ///< whether it is known what a cell that is no node shows
+  std::map<neighbours, std::int32_t> known_;
+  std::vector<std::pair<int, copy>> pending_;  ///< copies, and the plane that they wait for
+  std::vector<run> runs_;
+  std::vector<neighbours> tables_;
+  std::vector<link> links_;
+  std::vector<copy> copies_;
+  std::vector<wall> walls_;
+  std::vector<image> images_;
+  std::vector<plane> planes_;
+};
+
+}  // namespace lbm
+}  // namespace tetrapore::inline TETRAPORE_ABI
