@@ -4,10 +4,13 @@
 #include "tetrapore/core/error.hpp"
 #include "tetrapore/core/outcome.hpp"
 
+#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <utility>
+#include <vector>
 
 /// \file
 /// Experiments that look for a threshold: hold a value, wait, decide on which side of the threshold it lies, halve the
@@ -18,16 +21,21 @@ namespace lbm {
 
 /// How a hold ended.
 enum class hold_end : std::uint8_t {
-  stable,      ///< nothing moves any more: the value lies below the threshold
-  passed,      ///< the fluid went through: it lies above
+  stable,      ///< nothing moves any more, or less and less: the value lies below the threshold
+  passed,      ///< the fluid went through, or goes faster and faster: it lies above
   not_finite,  ///< a density is not a number
   dissolved,   ///< a phase is gone, or no densities belong to the value
   drifting,    ///< the interface stands, but mass goes on moving
-  step_limit   ///< the interface still moves after the most steps that are allowed
+  step_limit,  ///< the interface still moves after the most steps that are allowed
+  withdrew,    ///< the fluid went back where no meniscus can rest: the value lies below
+  flowing      ///< the interface stands, but the fluids show another value than was set: something flows through it
 };
 
+[[nodiscard]] constexpr bool lies_below(hold_end e) noexcept {
+  return e == hold_end::stable || e == hold_end::withdrew;
+}
 [[nodiscard]] constexpr verdict verdict_of(hold_end e) noexcept {
-  return e == hold_end::stable || e == hold_end::passed ? verdict::ok : verdict::failed;
+  return lies_below(e) || e == hold_end::passed ? verdict::ok : verdict::failed;
 }
 [[nodiscard]] constexpr const char* describe(hold_end e) noexcept {
   switch (e) {
@@ -37,6 +45,8 @@ enum class hold_end : std::uint8_t {
     case hold_end::dissolved: return "a phase dissolved";
     case hold_end::drifting: return "the interface stands, but mass drifts";
     case hold_end::step_limit: return "the interface still moves after the most steps allowed";
+    case hold_end::withdrew: return "the fluid went back";
+    case hold_end::flowing: return "the interface stands, but something flows through it";
   }
   return "not an end of a hold";
 }
@@ -83,7 +93,7 @@ struct search_options {
   double lower = 0.7;
   double upper = 1.3;
   double width = 0.03;  ///< of the last bracket, relative to its middle
-  double widen = 1.3;   ///< factor by which an end moves on that turned out to lie on the other side
+  double widen = 1.3;  ///< factor by which an end moves on that turned out to lie on the other side; then its square, …
   std::uint32_t most_widenings = 8;
 };
 
@@ -142,19 +152,19 @@ class threshold_search {
     memory_.updates += r.updates;
     ++memory_.holds;
     memory_.last = r.end;
-    if (r.end == hold_end::stable) {
+    if (lies_below(r.end)) {
       memory_.lower = held;
       memory_.lower_known = 1;
       memory_.measured_lower = r.measured;
       memory_.position_lower = r.position;
       if (!(memory_.upper > held)) {
-        widen(memory_.upper, held * options_.widen);
+        widen(memory_.upper, held * stride());
       }
     } else if (r.end == hold_end::passed) {
       memory_.upper = held;
       memory_.upper_known = 1;
       if (memory_.lower_known == 0) {
-        widen(memory_.lower, held / options_.widen);
+        widen(memory_.lower, held / stride());
       }
     } else if (r.end == hold_end::step_limit && memory_.creeping == 0) {
       memory_.creeping = held;
@@ -171,6 +181,14 @@ class threshold_search {
   }
 
  private:
+  /// How far an end moves: further each time, at most to twice the value.
+  [[nodiscard]] double stride() const noexcept {
+    double by = options_.widen;
+    for (std::uint32_t k = 0; k < memory_.widenings && by < 2; ++k) {
+      by *= by;
+    }
+    return by < 2 ? by : options_.widen < 2 ? 2 : options_.widen;
+  }
   void widen(double& end, double to) noexcept {
     if (memory_.widenings == options_.most_widenings) {
       memory_.end = search_end::unbracketed;
@@ -182,6 +200,61 @@ class threshold_search {
 
   search_options options_;
   memory memory_;
+};
+
+/// Where an interface is going, from its positions at equal times: it sinks through a constriction, or comes to rest.
+///
+/// Near a threshold the pressure that would hold the interface has a highest value along the way, and the interface
+/// is slowest there. One that has become twice as fast again is past it; one that comes to rest covers less and less
+/// way in equal times, each time about the same share of the last or a smaller one.
+/// \par Units  any length; positions go down where the fluid goes on
+class interface_track {
+ public:
+  /// \param scale  what counts as a way: about the radius of the constriction
+  /// \param stride  positions in a time of which ways are compared
+  interface_track(double scale, std::size_t stride) : scale_(scale), stride_(stride) {}
+
+  void add(double position) { at_.push_back(position); }
+
+  /// Past the slowest place by a quarter of the scale, below `level`, and twice as fast.
+  [[nodiscard]] bool runs_away(double level) const noexcept {
+    const std::size_t n = at_.size();
+    if (n <= 2 * stride_ || !(at_.back() < level)) {
+      return false;
+    }
+    double least = std::numeric_limits<double>::infinity();
+    double place = 0;
+    for (std::size_t k = n; k-- > stride_;) {
+      if (at_[k] > at_.back() + scale_) {
+        break;
+      }
+      if (const double way = at_[k - stride_] - at_[k]; way < least) {
+        least = way;
+        place = at_[k];
+      }
+    }
+    const double last = at_[n - 1 - stride_] - at_.back();
+    return last > 0 && last > 2 * least && place > at_.back() + scale_ / 4;
+  }
+
+  /// What is left of the way is less than 3 % of the scale, by three ways that shrink like a geometric series.
+  [[nodiscard]] bool comes_to_rest() const noexcept {
+    const std::size_t n = at_.size();
+    if (n < 3 * stride_ + 1) {
+      return false;
+    }
+    const auto way = [&](std::size_t back) { return at_[n - 1 - back * stride_] - at_[n - 1 - (back + 1) * stride_]; };
+    const double a = way(2);
+    const double b = way(1);
+    const double c = way(0);
+    const double q = c / b;
+    return a * b > 0 && b * c > 0 && q < 0.9 && q <= b / a + 0.03 && std::abs(c * q / (1 - q)) < 0.03 * scale_;
+  }
+
+ private:
+  double scale_;
+  std::size_t stride_;
+  std::vector<double> at_;
 };
 
 /// An experiment in which a value is held until the fluids stand still or have passed.
@@ -202,7 +275,7 @@ template <held_experiment E, class After>
 void run(E& experiment, threshold_search& search, After after) {
   while (search.running()) {
     const hold_report r = experiment.hold(search.next());
-    if (r.end == hold_end::stable) {
+    if (lies_below(r.end)) {
       experiment.keep();
     } else {
       experiment.back();

@@ -5,10 +5,13 @@
 #include "tetrapore/lbm/sites.hpp"
 #include "tetrapore/simplex/opening.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <string>
 
 /// \file
 /// The nodes of a throat: the prism over the triangle of three grains' centres, less the grains, between a reservoir
@@ -36,9 +39,14 @@ struct throat_resolution {
   double retraction = 0;        ///< by how much each grain's radius is reduced: room for the film on it
   double above = 0;             ///< from the plane of the centres up to the reservoir
   double below = 0;
+  double plug = 0;                   ///< the upper reservoir keeps as far from the grains: films end at a mirror there
+  bool halved = false;               ///< a throat that is its own mirror image is solved by one half
+  bool fitted = false;               ///< radii shift so that the neck has as many nodes as it has volume
+  std::size_t most_nodes = 1000000;  ///< fluid nodes that are allowed
 };
 
-/// A throat of three grains on a lattice: x along its longest side, z along its axis.
+/// A throat of three grains on a lattice: x along its longest side, z along its axis. A throat with two equal grains at
+/// equal distances from the third is cut along its own mirror, the two on both sides of it.
 /// \par Domain  openings of three discs whose triangle is not degenerate; grains that leave fluid between them
 class throat_on_lattice {
  public:
@@ -60,19 +68,27 @@ class throat_on_lattice {
       throw parameter_error("throat", "a resolution of " + short_number(r.nodes_per_length) + " nodes",
                             "nodes, above and below more than 0, a retraction of 0 or more");
     }
+    const auto length_of = [&](std::size_t k) { return norm(corner[(k + 1) % 3] - corner[k % 3]); };
     for (std::size_t k = 1; k < 3; ++k) {
-      if (norm(corner[(k + 1) % 3] - corner[k]) > norm(corner[(longest + 1) % 3] - corner[longest])) {
-        longest = k;
-      }
+      longest = length_of(k) > length_of(longest) ? k : longest;
     }
-    // the longest side lies half a node below the nodes y = 0, so that its mirror is a face of the box
+    for (std::size_t k = 0; r.halved && !half_ && k < 3; ++k) {
+      const auto same = [](double a, double b) { return std::abs(a - b) <= 1e-9 * (a + b); };
+      half_ = same(length_of(k + 1), length_of(k + 2)) && same(o.sides[k].radius, o.sides[(k + 1) % 3].radius) &&
+              sides[(k + 1) % 3] == sides[(k + 2) % 3];
+      longest = half_ ? k : longest;
+    }
+    // the first side lies half a node below the nodes y = 0, so that its mirror is a face of the box; so does the
+    // throat's own mirror behind the last nodes of x
     const vec2<double> along = corner[(longest + 1) % 3] - corner[longest];
     const double length = norm(along);
+    const int across = static_cast<int>(std::ceil(half_ ? length / 2 : length)) + 1;
+    const double first = half_ ? across - 0.5 - length / 2 : -0.5;
     const vec2<double> e = along * (1 / length);
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t from = (longest + k) % 3;
       const vec2<double> d = corner[from] - corner[longest];
-      grains_[k] = {{dot(d, e) - 0.5, cross(e, d) - 0.5}, o.sides[from].radius * r.nodes_per_length - r.retraction};
+      grains_[k] = {{dot(d, e) + first, cross(e, d) - 0.5}, o.sides[from].radius * r.nodes_per_length - r.retraction};
       sides_[k] = sides[from];
       if (!(grains_[k].radius > 0)) {
         throw parameter_error("throat",
@@ -84,12 +100,22 @@ class throat_on_lattice {
     if (!(height > 1e-6 * length)) {
       throw parameter_error("throat", "centres on a line", "a triangle");
     }
-    box_.size = {static_cast<int>(std::ceil(length)) + 1, static_cast<int>(std::ceil(height)) + 1,
-                 static_cast<int>(std::ceil(r.above + r.below)) + 1};
-    middle_ = r.below;
+    // the prism's volume: nodes are counted only where not nearly all of it can be solid
+    const double volume = 0.5 * length * height * (half_ ? 0.5 : 1) * (r.above + r.below);
+    if (!(volume < 32 * static_cast<double>(r.most_nodes))) {
+      too_many(volume, r.most_nodes);
+    }
+    box_.size = {across, static_cast<int>(std::ceil(height)) + 1, static_cast<int>(std::ceil(r.above + r.below)) + 1};
+    middle_ = std::round(r.below);  // nodes in the plane of the centres, and as many above as below
     box_.low = {face_kind::wall, sides_[0] == prism_side::mirror ? face_kind::mirror : face_kind::wall,
-                face_kind::wall};
-    box_.high = {face_kind::wall, face_kind::wall, face_kind::wall};
+                face_kind::mirror};
+    box_.high = {half_ ? face_kind::mirror : face_kind::wall, face_kind::wall, face_kind::mirror};
+    if (r.fitted) {
+      fit();
+    }
+    if (const std::size_t fluid = fluid_nodes(); fluid > r.most_nodes) {
+      too_many(static_cast<double>(fluid), r.most_nodes);
+    }
   }
 
   [[nodiscard]] const lattice_box& box() const noexcept { return box_; }
@@ -103,24 +129,35 @@ class throat_on_lattice {
         [this](int x, int y, int z) { return image<L>(x, y, z); });
   }
 
+  /// The throat is solved by one half, cut along its own mirror.
+  [[nodiscard]] bool halved() const noexcept { return half_; }
+
   [[nodiscard]] site at(int x, int y, int z) const noexcept {
     const vec2<double> p{static_cast<double>(x), static_cast<double>(y)};
-    for (const grain_section& g : grains_) {
-      const vec2<double> d = p - g.centre;
-      const double up = z - middle_;
-      if (dot(d, d) + up * up < g.radius * g.radius) {
-        return {site_kind::solid, grain_wall};
-      }
+    const double room = to_grains(x, y, z);
+    if (room < 0) {
+      return {site_kind::solid, grain_wall};
     }
-    for (std::size_t k = 1; k < 3; ++k) {
+    for (std::size_t k = half_ ? 2 : 1; k < 3; ++k) {
       if (outside(p, k) > 0) {
         return sides_[k] == prism_side::mirror ? site{site_kind::image, 0} : site{site_kind::solid, liquid_wall};
       }
     }
-    if (z == 0 || z + 1 == box_.size[2]) {
+    if (z == 0 || (z + 1 == box_.size[2] && !(room < resolution_.plug))) {
       return {site_kind::reservoir, z == 0 ? reservoir_below : reservoir_above};
     }
     return {};
+  }
+
+  /// How far a node lies from the nearest grain, negative inside one. \par Units  nodes
+  [[nodiscard]] double to_grains(int x, int y, int z) const noexcept {
+    double least = std::numeric_limits<double>::infinity();
+    for (const grain_section& g : grains_) {
+      const vec2<double> d = vec2<double>{static_cast<double>(x), static_cast<double>(y)} - g.centre;
+      const double up = z - middle_;
+      least = std::min(least, std::sqrt(dot(d, d) + up * up) - g.radius);
+    }
+    return least;
   }
 
  private:
@@ -148,7 +185,11 @@ class throat_on_lattice {
         p.y = -1 - p.y;
         within = false;
       }
-      for (std::size_t k = 1; k < 3; ++k) {
+      if (half_ && p.x > box_.size[0] - 0.5) {
+        p.x = 2 * box_.size[0] - 1 - p.x;
+        within = false;
+      }
+      for (std::size_t k = half_ ? 2 : 1; k < 3; ++k) {
         if (outside(p, k) > 1e-12) {
           p = folded(p, k);
           within = false;
@@ -204,9 +245,78 @@ class throat_on_lattice {
     return best;
   }
 
+  /// All radii shift by the same fraction of a node, at most a half, until the layers next to the plane of the centres
+  /// hold as many nodes as the throat has volume there. Without it p_c has steps of 2 % at r_in of 4 nodes.
+  void fit() noexcept {
+    double smallest = grains_[0].radius;
+    double area = 0;
+    std::array<double, 3> angle{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const vec2<double> a = grains_[(k + 1) % 3].centre - grains_[k].centre;
+      const vec2<double> b = grains_[(k + 2) % 3].centre - grains_[k].centre;
+      smallest = std::min(smallest, grains_[k].radius);
+      area = cross(a, b) / 2;
+      angle[k] = std::atan2(cross(a, b), dot(a, b));
+      if (!(cross(a, b) > grains_[k].radius * norm(b - a))) {
+        return;  // a grain that reaches through the side opposite to it: its section is no sector
+      }
+    }
+    const int layers = std::max(1, static_cast<int>(0.3 * smallest));
+    double volume = 0;
+    for (int z = -layers; z <= layers; ++z) {
+      volume += area;
+      for (std::size_t k = 0; k < 3; ++k) {
+        volume -= angle[k] / 2 * (grains_[k].radius * grains_[k].radius - z * z);
+      }
+    }
+    const auto nodes = [&](double shift) {
+      double count = 0;
+      for (int x = 0; x < box_.size[0]; ++x) {
+        for (int y = 0; y < box_.size[1]; ++y) {
+          const vec2<double> p{static_cast<double>(x), static_cast<double>(y)};
+          bool inside = true;
+          for (std::size_t k = half_ ? 2 : 1; k < 3; ++k) {
+            inside = inside && !(outside(p, k) > 0);
+          }
+          for (int z = -layers; inside && z <= layers; ++z) {
+            count += to_grains(x, y, static_cast<int>(middle_) + z) < shift ? 0 : 1;
+          }
+        }
+      }
+      return half_ ? 2 * count : count;
+    };
+    double low = -0.5;
+    double high = 0.5;
+    for (int turn = 0; turn < 24; ++turn) {
+      const double shift = (low + high) / 2;
+      (nodes(shift) > volume ? low : high) = shift;
+    }
+    for (grain_section& g : grains_) {
+      g.radius += (low + high) / 2;
+    }
+  }
+
+  [[nodiscard]] std::size_t fluid_nodes() const noexcept {
+    std::size_t count = 0;
+    for (int x = 0; x < box_.size[0]; ++x) {
+      for (int y = 0; y < box_.size[1]; ++y) {
+        for (int z = 0; z < box_.size[2]; ++z) {
+          const site_kind kind = at(x, y, z).kind;
+          count += kind == site_kind::fluid || kind == site_kind::reservoir ? 1 : 0;
+        }
+      }
+    }
+    return count;
+  }
+  [[noreturn]] static void too_many(double nodes, std::size_t most) {
+    throw parameter_error("throat", "a lattice of " + short_number(nodes) + " nodes",
+                          "at most " + std::to_string(most) + " fluid nodes: a coarser resolution or a higher limit");
+  }
+
   throat_resolution resolution_;
   lattice_box box_;
   double middle_ = 0;
+  bool half_ = false;
   std::array<grain_section, 3> grains_;
   std::array<prism_side, 3> sides_{};
 };
