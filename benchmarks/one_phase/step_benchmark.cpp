@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// One step of a saturated flow through dense grains, from spheres to the forces on them, and its parts: `triangulate`,
+// One step of a saturated flow through dense grains, from spheres to the forces on them, and its parts, beside what the
+// bare library call allows, CGAL's range insertion of the same spheres (`bare_triangulation`): `triangulate`,
 // `laws` (nodes and conductances), `pressures` (hierarchy and solution), `forces`; `whole` does them all, graph
 // included, `follow_and_solve` all but the triangulation, on a network that follows its grains. `error` is the part of
 // the boundary pressure force that the forces on grains and walls miss, `failed` is 1 where the solver says that it has
@@ -55,6 +56,14 @@ void tell(benchmark::State& state, const network& net) {
   flow_of_the_step flow = flow_through(net);
   flow.solve();
   tell(state, net, flow, forces_on_grains(flow));
+}
+
+void bare(benchmark::State& state) {
+  const packing& p = packing_of(state);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(triangulate_bare(p.grains).cells);
+  }
+  tell(state, triangulated(p));
 }
 
 void triangulate(benchmark::State& state) {
@@ -128,6 +137,7 @@ void whole(benchmark::State& state) {
 
 void sizes(benchmark::internal::Benchmark* b) { b->Arg(10000)->Arg(40000)->Unit(benchmark::kMillisecond); }
 
+BENCHMARK(bare)->Name("bare_triangulation")->Apply(sizes);
 BENCHMARK(triangulate)->Apply(sizes);
 BENCHMARK(laws)->Apply(sizes);
 BENCHMARK(pressures)->Apply(sizes);

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The pressure system of dense grains (58,600 pores, `large` 238,000) by every solver that we know of, beside our own.
-// Conductances as they are, or changed as the label says. `error` is the largest against long double, relative to the
-// largest pressure; `failed` is 1 where the solver says that it has not solved. Rows `cold` begin from the graph,
-// `again` from other conductances on the same graph, `resolve` from the factor. `raw` rows call Eigen as its manual
-// does. OpenBLAS takes as many threads as there are cores unless OPENBLAS_NUM_THREADS says otherwise.
+// The pressure system of dense grains (58,600 pores, `large` 234,000, `huge` 6.7 million) by every solver that we know
+// of, beside our own. Conductances as they are, or changed as the label says. `error` is the largest against long
+// double, relative to the largest pressure; `failed` is 1 where the solver says that it has not solved. Rows `cold`
+// begin from the graph, `again` from other conductances on the same graph, `resolve` from the factor. `raw` rows call
+// Eigen as its manual does; those of hypre are there where it is installed (Debian: libhypre-dev). OpenBLAS takes as
+// many threads as there are cores unless OPENBLAS_NUM_THREADS says otherwise.
 
+#ifdef TETRAPORE_HAS_HYPRE
+#include "solver/hypre.hpp"
+#endif
 #include "solver/system.hpp"
 #include "tetrapore/solver/cholmod.hpp"
 #include "tetrapore/solver/eigen.hpp"
@@ -186,6 +190,9 @@ void extremes(benchmark::internal::Benchmark* b) {
 void large(benchmark::internal::Benchmark* b) {
   b->ArgNames({"grains", "contrast"})->Args({40000, 0})->Unit(benchmark::kMillisecond);
 }
+void huge(benchmark::internal::Benchmark* b) {
+  b->ArgNames({"grains", "contrast"})->Args({1100000, 0})->Unit(benchmark::kMillisecond)->Iterations(1);
+}
 
 }  // namespace
 
@@ -215,3 +222,11 @@ BENCHMARK(cholmod_resolve_unrefined)->Name("large_cholmod_resolve_unrefined")->A
 BENCHMARK(raw_simplicial_ldlt)->Name("large_raw_simplicial_ldlt")->Apply(large)->Iterations(1);
 BENCHMARK(raw_cg<Eigen::DiagonalPreconditioner<double>>)->Name("large_raw_cg_diagonal")->Apply(large);
 BENCHMARK(raw_cg<Eigen::IncompleteCholesky<double>>)->Name("large_raw_cg_incomplete_cholesky")->Apply(large);
+
+BENCHMARK(cold<multigrid>)->Name("huge_multigrid_cold")->Apply(huge);
+
+#ifdef TETRAPORE_HAS_HYPRE
+BENCHMARK(cold<bench::hypre_solver>)->Name("hypre_cold")->Apply(natural);
+BENCHMARK(cold<bench::hypre_solver>)->Name("large_hypre_cold")->Apply(large);
+BENCHMARK(cold<bench::hypre_solver>)->Name("huge_hypre_cold")->Apply(huge);
+#endif

@@ -233,58 +233,57 @@ class pairwise_aggregation {
   /// The rows of aggregates: conductances between them summed, those inside dropped.
   [[nodiscard]] static level_rows<T> merged_rows(const level_rows<T>& rows, std::span<const std::uint32_t> merge,
                                                  std::size_t count) {
-    std::vector<std::uint32_t> begin(count + 1, 0);
-    for (const std::uint32_t a : merge) {
-      if (a != no_aggregate) {
-        ++begin[a + std::size_t{1}];
-      }
-    }
-    for (std::size_t a = 0; a < count; ++a) {
-      begin[a + 1] += begin[a];
-    }
-    std::vector<std::uint32_t> members(begin[count]);
-    std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
-    for (std::uint32_t i = 0; i < merge.size(); ++i) {
-      if (merge[i] != no_aggregate) {
-        members[next[merge[i]]++] = i;
+    constexpr std::uint32_t none = no_aggregate;
+    std::vector<std::uint32_t> first(count, none);       // member of an aggregate
+    std::vector<std::uint32_t> following(merge.size());  // member after this one
+    for (auto i = static_cast<std::uint32_t>(merge.size()); i-- > 0;) {
+      if (merge[i] != none) {
+        following[i] = first[merge[i]];
+        first[merge[i]] = i;
       }
     }
     struct place {
       std::uint32_t row, entry;
     };
-    std::vector<place> places(count, place{no_aggregate, 0});  // where the latest row that holds a column has it
-    std::vector<share> row;
+    std::vector<place> places(count, place{none, 0});  // where the latest row that holds a column has it
     level_rows<T> out;
     out.offsets.resize(count + 1);
     out.split.resize(count);
     out.columns.reserve(rows.columns.size());
     out.weights.reserve(rows.columns.size());
+    std::vector<share> after;  // of the row, the neighbours after it
     for (std::uint32_t a = 0; a < count; ++a) {
-      row.clear();
-      for (std::uint32_t m = begin[a]; m < begin[a + std::size_t{1}]; ++m) {
-        const std::uint32_t i = members[m];
+      after.clear();
+      for (std::uint32_t i = first[a]; i != none; i = following[i]) {
         for (std::uint32_t k = rows.offsets[i]; k < rows.offsets[i + std::size_t{1}]; ++k) {
           const std::uint32_t b = merge[rows.columns[k]];
-          if (b == a || b == no_aggregate) {
+          if (b == a || b == none) {
             continue;
           }
-          if (places[b].row == a) {
-            row[places[b].entry].weight += rows.weights[k];
+          const T w = rows.weights[k];
+          place& of_column = places[b];
+          if (b < a) {
+            if (of_column.row == a) {
+              out.weights[of_column.entry] += w;
+            } else {
+              of_column = {a, static_cast<std::uint32_t>(out.columns.size())};
+              out.columns.push_back(b);
+              out.weights.push_back(w);
+            }
+          } else if (of_column.row == a) {
+            after[of_column.entry].weight += w;
           } else {
-            places[b] = {a, static_cast<std::uint32_t>(row.size())};
-            row.push_back({b, rows.weights[k]});
+            of_column = {a, static_cast<std::uint32_t>(after.size())};
+            after.push_back({b, w});
           }
         }
       }
-      for (const bool after : {false, true}) {
-        for (const share& entry : row) {
-          if ((entry.pair > a) == after) {
-            out.columns.push_back(entry.pair);
-            out.weights.push_back(entry.weight);
-          }
-        }
-        (after ? out.offsets[a + std::size_t{1}] : out.split[a]) = static_cast<std::uint32_t>(out.columns.size());
+      out.split[a] = static_cast<std::uint32_t>(out.columns.size());
+      for (const share& entry : after) {
+        out.columns.push_back(entry.pair);
+        out.weights.push_back(entry.weight);
       }
+      out.offsets[a + std::size_t{1}] = static_cast<std::uint32_t>(out.columns.size());
     }
     out.columns.shrink_to_fit();
     out.weights.shrink_to_fit();
@@ -327,37 +326,32 @@ class aggregation_hierarchy {
     const std::size_t n = graph.node_count();
     levels_.clear();
     levels_.emplace_back();
-    order_.clear();
-    order_.reserve(n);
-    std::vector<std::uint32_t> position(n, detail::no_aggregate);
-    for (std::uint32_t start = 0; start < n; ++start) {
-      if (position[start] != detail::no_aggregate) {
-        continue;
-      }
-      position[start] = static_cast<std::uint32_t>(order_.size());
-      order_.push_back(start);
-      for (std::size_t head = order_.size() - 1; head < order_.size(); ++head) {
-        for (const std::uint32_t j : graph.neighbours(order_[head])) {
-          if (position[j] == detail::no_aggregate) {
-            position[j] = static_cast<std::uint32_t>(order_.size());
-            order_.push_back(j);
-          }
-        }
-      }
-    }
     detail::level_rows<T>& rows = levels_[0].rows;
-    rows.offsets.resize(n + 1);
+    rows.offsets.assign(n + 1, 0);
     rows.split.resize(n);
     rows.columns.resize(graph.all_neighbours().size());
     edges_.resize(rows.columns.size());
-    rows.offsets[0] = 0;
+    order_.clear();
+    order_.reserve(n);
+    std::vector<std::uint32_t> position(n, detail::no_aggregate);
+    const auto number = [&](std::uint32_t node) {
+      if (position[node] == detail::no_aggregate) {
+        position[node] = static_cast<std::uint32_t>(order_.size());
+        order_.push_back(node);
+      }
+      return position[node];
+    };
+    std::uint32_t start = 0;
     for (std::uint32_t i = 0; i < n; ++i) {
+      for (; order_.size() == i; ++start) {
+        number(start);
+      }
       const auto near = graph.neighbours(order_[i]);
       const auto edge = graph.incident_edges(order_[i]);
       std::uint32_t low = rows.offsets[i];
       std::uint32_t high = rows.offsets[i + std::size_t{1}] = low + static_cast<std::uint32_t>(near.size());
       for (std::size_t k = 0; k < near.size(); ++k) {
-        const std::uint32_t j = position[near[k]];
+        const std::uint32_t j = number(near[k]);
         const std::uint32_t at = j < i ? low++ : --high;
         rows.columns[at] = j;
         edges_[at] = edge[k];
@@ -402,7 +396,7 @@ class aggregation_hierarchy {
     for (std::size_t i = 0; i < order_.size(); ++i) {
       input()[i] = b[order_[i]];
     }
-    cycle([](std::size_t, double) {});
+    cycle([this](std::size_t i) { return input()[i]; }, [](std::size_t, double) {});
     for (std::size_t i = 0; i < order_.size(); ++i) {
       x[order_[i]] = scale_ * output()[i];
     }
@@ -417,11 +411,19 @@ class aggregation_hierarchy {
   [[nodiscard]] std::span<double> input() noexcept { return levels_[0].r; }
   [[nodiscard]] std::span<const double> output() const noexcept { return levels_[0].z; }
   [[nodiscard]] double scale() const noexcept { return scale_; }
+  /// \param feed   feed(i) sets input()[i] and returns it, for each i in turn
   /// \param visit  visit(i, output()[i]) as soon as it is known
-  template <class Visit>
-  void cycle(const Visit& visit) {
-    for (std::size_t l = 0; l + 1 < levels_.size(); ++l) {
-      sweep_down(levels_[l], levels_[l + 1]);
+  template <class Feed, class Visit>
+  void cycle(const Feed& feed, const Visit& visit) {
+    if (levels_.size() > 1) {
+      sweep_down(levels_[0], levels_[1], feed);
+    } else {
+      for (std::size_t i = 0; i < order_.size(); ++i) {
+        feed(i);
+      }
+    }
+    for (std::size_t l = 1; l + 1 < levels_.size(); ++l) {
+      sweep_down(levels_[l], levels_[l + 1], [&r = levels_[l].r](std::size_t i) { return r[i]; });
     }
     level& last = levels_.back();
     if (direct_) {
@@ -548,7 +550,8 @@ class aggregation_hierarchy {
     }
   }
   /// The same, and the residual that it leaves, Lᵀ z, summed over aggregates.
-  static void sweep_down(level& f, level& c) noexcept {
+  template <class Feed>
+  static void sweep_down(level& f, level& c, const Feed& feed) noexcept {
     const T* const w = f.rows.weights.data();
     const std::uint32_t* const column = f.rows.columns.data();
     const std::uint32_t* const aggregate = f.aggregate.data();
@@ -556,7 +559,7 @@ class aggregation_hierarchy {
     double* const coarse = c.r.data();
     std::fill(c.r.begin(), c.r.end(), 0.0);
     for (std::size_t i = 0; i < f.rows.size(); ++i) {
-      double sum = f.r[i];
+      double sum = feed(i);
       const std::uint32_t begin = f.rows.offsets[i];
       const std::uint32_t end = f.rows.split[i];
       for (std::uint32_t k = begin; k < end; ++k) {

@@ -169,11 +169,10 @@ class multigrid_solver {
       if (!(energy > 0)) {
         break;
       }
-      norm = advance(rz / energy);
+      const double next = advance_and_cycle(rz / energy, norm);
       ++iterations;
       since = norm < 0.9 * lowest ? 0 : since + 1;
       lowest = norm < lowest ? norm : lowest;
-      const double next = cycle();
       if (norm <= target) {
         if (const double error = estimate(); error <= error_target) {
           return error;
@@ -185,12 +184,22 @@ class multigrid_solver {
     return std::numeric_limits<double>::infinity();
   }
 
+  [[nodiscard]] static double larger(double a, double b) noexcept {
+    const double size = std::abs(b);
+    return size > a ? size : a;
+  }
+
   /// z = M⁻¹ r; rᵀ z.
   double cycle() {
+    const auto r = hierarchy_.input();
+    return cycle([r](std::size_t i) { return r[i]; });
+  }
+  template <class Feed>
+  double cycle(const Feed& feed) {
     back_ = hierarchy_.scale() * weight_unit_;
     const auto r = hierarchy_.input();
     double sum = 0;
-    hierarchy_.cycle([&](std::size_t i, double z) { sum += r[i] * z; });
+    hierarchy_.cycle(feed, [&](std::size_t i, double z) { sum += r[i] * z; });
     return sum * back_;
   }
   /// max |z| / max |x|.
@@ -199,8 +208,8 @@ class multigrid_solver {
     double z_norm = 0;
     double x_norm = 0;
     for (std::size_t i = 0; i < x_.size(); ++i) {
-      z_norm = std::fmax(z_norm, std::abs(z[i]));
-      x_norm = std::fmax(x_norm, std::abs(x_[i]));
+      z_norm = larger(z_norm, z[i]);
+      x_norm = larger(x_norm, x_[i]);
     }
     z_norm *= back_;
     return x_norm > 0 ? z_norm / x_norm : (z_norm > 0 ? std::numeric_limits<double>::infinity() : 0.0);
@@ -213,9 +222,9 @@ class multigrid_solver {
     double b_norm = 0;
     double x_norm = 0;
     for (std::size_t i = 0; i < r.size(); ++i) {
-      r_norm = std::fmax(r_norm, std::abs(r[i]));
-      b_norm = std::fmax(b_norm, std::abs(b_[i]));
-      x_norm = std::fmax(x_norm, std::abs(x_[i]));
+      r_norm = larger(r_norm, r[i]);
+      b_norm = larger(b_norm, b_[i]);
+      x_norm = larger(x_norm, x_[i]);
     }
     return r_norm > 0 ? r_norm / (b_norm + system_.norm() / weight_unit_ * x_norm) : 0.0;
   }
@@ -250,16 +259,19 @@ class multigrid_solver {
     }
     return energy;
   }
-  /// x += α p, r −= α q; ‖D^-½ r‖.
-  double advance(double alpha) noexcept {
+  /// x += α p, r −= α q, and the V-cycle of r, which takes r as it comes: rᵀ z, and ‖D^-½ r‖.
+  double advance_and_cycle(double alpha, double& norm) {
     const auto r = hierarchy_.input();
-    double norm = 0;
-    for (std::size_t i = 0; i < r.size(); ++i) {
+    double squares = 0;
+    const double rz = cycle([&](std::size_t i) {
       x_[i] += alpha * p_[i];
-      r[i] -= alpha * q_[i];
-      norm += r[i] * r[i] * inverse_[i];
-    }
-    return std::sqrt(norm);
+      const double v = r[i] - alpha * q_[i];
+      r[i] = v;
+      squares += v * v * inverse_[i];
+      return v;
+    });
+    norm = std::sqrt(squares);
+    return rz;
   }
 
   pressure_system system_;
