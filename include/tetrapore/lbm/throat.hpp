@@ -39,7 +39,7 @@ struct throat_resolution {
   double retraction = 0;        ///< by how much each grain's radius is reduced: room for the film on it
   double above = 0;             ///< from the plane of the centres up to the reservoir
   double below = 0;
-  double plug = 0;                   ///< the upper reservoir keeps as far from the grains: films end at a mirror there
+  double plug = 0;                   ///< reservoirs keep as far from the grains: films end at a mirror there
   bool halved = false;               ///< a throat that is its own mirror image is solved by one half
   bool fitted = false;               ///< radii shift so that the neck has as many nodes as it has volume
   std::size_t most_nodes = 1000000;  ///< fluid nodes that are allowed
@@ -78,6 +78,7 @@ class throat_on_lattice {
               sides[(k + 1) % 3] == sides[(k + 2) % 3];
       longest = half_ ? k : longest;
     }
+    first_side_ = longest;
     // the first side lies half a node below the nodes y = 0, so that its mirror is a face of the box; so does the
     // throat's own mirror behind the last nodes of x
     const vec2<double> along = corner[(longest + 1) % 3] - corner[longest];
@@ -89,6 +90,7 @@ class throat_on_lattice {
       const std::size_t from = (longest + k) % 3;
       const vec2<double> d = corner[from] - corner[longest];
       grains_[k] = {{dot(d, e) + first, cross(e, d) - 0.5}, o.sides[from].radius * r.nodes_per_length - r.retraction};
+      given_[k] = o.sides[from].radius * r.nodes_per_length;
       sides_[k] = sides[from];
       if (!(grains_[k].radius > 0)) {
         throw parameter_error("throat",
@@ -143,11 +145,29 @@ class throat_on_lattice {
         return sides_[k] == prism_side::mirror ? site{site_kind::image, 0} : site{site_kind::solid, liquid_wall};
       }
     }
-    if (z == 0 || (z + 1 == box_.size[2] && !(room < resolution_.plug))) {
+    if ((z == 0 || z + 1 == box_.size[2]) && !(room < resolution_.plug)) {
       return {site_kind::reservoir, z == 0 ? reservoir_below : reservoir_above};
     }
     return {};
   }
+
+  /// A grain as it was given, on the lattice.
+  struct placed_grain {
+    vec2<double> centre;  ///< in the plane of the centres, `middle()` above the first nodes
+    double radius;        ///< not retracted
+  };
+  /// The grain of side k of the opening. \par Units  nodes
+  [[nodiscard]] placed_grain grain(std::size_t k) const noexcept {
+    return {grains_[(k + 3 - first_side_) % 3].centre, given_[(k + 3 - first_side_) % 3]};
+  }
+  /// Side k of the opening is the one that lies on a face of the box.
+  [[nodiscard]] bool on_face(std::size_t k) const noexcept { return k == first_side_; }
+  /// A place is inside the prism, the half that is left out included.
+  [[nodiscard]] bool in_prism(const vec2<double>& p) const noexcept {
+    return p.y >= -0.5 && outside(p, 1) <= 0 && outside(p, 2) <= 0;
+  }
+  /// The fluid node or wall of the box that stands for a place beside or beyond its mirrors.
+  [[nodiscard]] std::array<int, 3> standing_for(int x, int y, int z) const noexcept { return nearest(x, y, z); }
 
   /// How far a node lies from the nearest grain, negative inside one. \par Units  nodes
   [[nodiscard]] double to_grains(int x, int y, int z) const noexcept {
@@ -318,6 +338,8 @@ class throat_on_lattice {
   double middle_ = 0;
   bool half_ = false;
   std::array<grain_section, 3> grains_;
+  std::array<double, 3> given_{};  ///< radii before the retraction
+  std::size_t first_side_ = 0;     ///< of the opening: that on the face y = 0
   std::array<prism_side, 3> sides_{};
 };
 

@@ -89,8 +89,15 @@ class tube_experiment {
         rules, interface_track(1, 1), 0, r,
         [&](const meniscus_sight& s) {
           apex.push_back(s.apex);
-          const double way = apex.size() > settled ? s.apex - apex[settled] : 0;
-          return way > 0.5 ? hold_end::withdrew : way < -0.5 ? hold_end::passed : hold_end::step_limit;
+          if (apex.size() <= settled) {
+            return hold_end::step_limit;
+          }
+          // a way that the second half of the time has its share in: corners that drain move the apex at first
+          const double way = s.apex - apex[settled];
+          const double half = s.apex - apex[(settled + apex.size()) / 2];
+          return std::abs(way) < 0.5 || half<0.4 * way == way> 0 ? hold_end::step_limit
+                 : way > 0                                       ? hold_end::withdrew
+                                                                 : hold_end::passed;
         },
         [](const hold_report&) {});
     return r;
