@@ -76,6 +76,15 @@ struct reservoir_pair {
   std::array<double, 2> liquid;
 };
 
+/// The densities of a wall that prefers component 1 by `wettability`: 1 shows that component's own phase, 0 both
+/// phases alike, −1 the phase of component 0. Which contact angle that makes is measured (calibration.hpp).
+[[nodiscard]] constexpr std::array<double, 2> wall_of_wettability(double main, double dissolved,
+                                                                  double wettability) noexcept {
+  const double mean = (main + dissolved) / 2;
+  const double half = wettability * (main - dissolved) / 2;
+  return {mean - half, mean + half};
+}
+
 /// p = (ρ_a + ρ_b)/3 + G ρ_a ρ_b / 3.
 [[nodiscard]] constexpr double pressure_of(const coexistence& c, const std::array<double, 2>& rho) noexcept {
   return (rho[0] + rho[1] + c.attraction * rho[0] * rho[1]) / 3;

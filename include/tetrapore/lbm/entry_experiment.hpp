@@ -4,6 +4,7 @@
 #include "tetrapore/law/entry/inscribed_circle.hpp"
 #include "tetrapore/law/entry/mayer_stowe_princen.hpp"
 #include "tetrapore/law/entry/mirror_sided.hpp"
+#include "tetrapore/lbm/calibration.hpp"
 #include "tetrapore/lbm/held_fluids.hpp"
 #include "tetrapore/lbm/throat.hpp"
 
@@ -25,27 +26,6 @@ namespace lbm {
 
 /// The measured pairs of `calibrate_pair`: G = 1.8 leaves an interface of 2.9 nodes and slow spurious currents.
 inline constexpr calibrated_pair pair_18{1.8, 1.003, 1.99526, 0.5, 0.0877, 0.0870, 0.14};
-
-/// The densities that a wall shows where the contact angle is θ; at 0 those of the liquid itself, twice what the angle
-/// asks for, so that a film covers the wall.
-/// \par Units     lattice units; θ [rad], 0 to below π/2
-/// \par Accuracy  above 0 not measured: a rule of ψ = ρ, no fit
-/// \par Source    Huang, Thorne, Schaap & Sukop, Phys. Rev. E 76, 066701 (2007), with the wall's densities as strength
-[[nodiscard]] inline std::array<double, 2> wall_densities(const coexistence& pair, double contact_angle) {
-  const auto dissolved = dissolved_density(pair);
-  if (!dissolved.ok()) {
-    throw parameter_error("mixture", describe(dissolved.reason), "two phases");
-  }
-  if (!(contact_angle >= 0 && contact_angle < pi<double> / 2)) {
-    throw parameter_error("contact angle", short_number(contact_angle) + " rad", "0 to below a right angle");
-  }
-  if (contact_angle == 0) {
-    return {dissolved.value, pair.main};
-  }
-  const double mean = (pair.main + dissolved.value) / 2;
-  const double half = std::cos(contact_angle) * (pair.main - dissolved.value) / 4;
-  return {mean - half, mean + half};
-}
 
 /// What an entry pressure measured with r_in nodes is to be multiplied by: films and interfaces of finite width.
 /// \par Domain    θ = 0, grains retracted by 1.1 nodes, `pair_18`, r_in from 2 nodes

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "tetrapore/lbm/laplace.hpp"
+
+#include <span>
+
+/// \file
+/// The contact angle that wall densities give, by a meniscus between two plates.
+
+namespace tetrapore::inline TETRAPORE_ABI {
+namespace lbm {
+
+/// A meniscus between plates, half of it above the mirror between them. \par Units  lattice units
+struct contact_set_up {
+  double attraction = 1.8;  ///< G
+  double tau = 1;
+  double main = 1;           ///< mean main density of both phases
+  double tension = 0.0862;   ///< of a flat interface, for the start
+  double factor = 1.995;     ///< c of `coexistence`, for the start
+  double wettability = 0.5;  ///< of both plates, `wall_of_wettability`
+  double expected = 1.047;   ///< angle to start from [rad]
+  int half_gap = 24;         ///< nodes between plate and mirror
+  int skipped = 4;           ///< rows beside the plate that are not fitted: the wall bends what is near
+  rest_options rest{1000, 2e-5, 3, 100000};
+};
+
+/// What a meniscus shows: component 1 is the liquid, angles are through it.
+struct contact_result {
+  double angle = 0;      ///< at the plate, half a node outside the last row [rad]; 0 where a film covers the plate
+  double curvature = 0;  ///< of the meniscus [1/node]; its sign is that of cos θ
+  double cosine = 0;     ///< half gap × curvature; above 1 where a film narrows the gap
+  double residual = 0;   ///< root mean square distance of the interface from its arc [nodes]
+  double by_rows = 0;    ///< by how much the angle changes when two rows more are left out [rad]
+  double driest = 0;  ///< lowest share of liquid beside the plate: (ρ1 − ρ0)/(main − dissolved); −1 dry, 1 wet
+  rest_report rest;
+};
+
+namespace detail {
+
+struct arc {
+  double apex;
+  double curvature;
+  double residual;
+};
+
+/// The arc x = apex + curvature × ((x − apex)² + h²)/2 through points (x, h), its middle on h = 0: straight ones too.
+[[nodiscard]] inline arc fit_arc(std::span<const std::array<double, 2>> points) noexcept {
+  arc a{points.back()[0], 0, 0};
+  const auto n = static_cast<double>(points.size());
+  for (int turn = 0; turn < 50; ++turn) {
+    double x = 0, q = 0, qq = 0, xq = 0;
+    for (const auto& p : points) {
+      const double z = ((p[0] - a.apex) * (p[0] - a.apex) + p[1] * p[1]) / 2;
+      x += p[0] / n;
+      q += z / n;
+      qq += z * z / n;
+      xq += p[0] * z / n;
+    }
+    a.curvature = (xq - x * q) / (qq - q * q);
+    a.apex = x - a.curvature * q;
+  }
+  for (const auto& p : points) {
+    const double off = std::hypot(1 - a.curvature * (p[0] - a.apex), a.curvature * p[1]) - 1;
+    const double distance = std::abs(a.curvature) > 1e-9 ? off / a.curvature : p[0] - a.apex;
+    a.residual += distance * distance / n;
+  }
+  a.residual = std::sqrt(a.residual);
+  return a;
+}
+
+}  // namespace detail
+
+/// Lets a meniscus between plates come to rest and fits an arc to the line on which the components weigh the same.
+///
+/// What the arc has at the plate is the angle seen from afar; next to the wall the interface bends within some 3 nodes.
+/// The plane at which the angle holds lies inside the gap by a fraction of a node, so that the cosine found in a gap of
+/// half width h is off by some 0.5/h; two gaps give the limit.
+/// \par Units  lattice units
+/// \tparam Model  a mixture on a lattice of two dimensions: of D3Q19 it is what its planes show
+template <class Model = mixture<d2q9, bgk>, std::floating_point T = float>
+[[nodiscard]] contact_result contact_angle(const contact_set_up& o) {
+  static_assert(Model::lattice_type::dimensions == 2, "a meniscus between plates is computed in the plane");
+  if (o.half_gap < o.skipped + 6 || o.skipped < 1 || !(std::abs(o.expected - pi<double> / 2) <= pi<double> / 2)) {
+    throw parameter_error("meniscus", std::to_string(o.half_gap) + " nodes to the middle of the gap",
+                          "6 more than are left out beside the plate, an angle of 0 to 180 degrees");
+  }
+  const auto model = repelling_pair<Model>(o.attraction, o.tau);
+  contact_result c;
+  const coexistence pair{o.attraction, o.factor, (o.factor - 1) / 2, o.main};
+  const double start_cosine = std::cos(o.expected);
+  const auto flat = dissolved_density(pair);
+  const auto start = reservoirs(pair, o.tension * start_cosine / o.half_gap);
+  if (!start.ok()) {
+    c.rest.end = hold_end::dissolved;
+    return c;
+  }
+  // the arc and a film: 1 to 2 gaps of fluid on either side; x runs along the plates, gas first
+  const int length = 4 * o.half_gap + 16;
+  const int height = o.half_gap;
+  const lattice_box box{{length, height, 1},
+                        {face_kind::mirror, face_kind::wall, face_kind::periodic},
+                        {face_kind::mirror, face_kind::mirror, face_kind::periodic}};
+  simulation<Model, T> s(model, {box, [](int, int, int) { return site{}; }});
+  s.set_wall(0, wall_of_wettability(o.main, flat.value, o.wettability));
+  const double curvature = start_cosine / o.half_gap;
+  const auto below_middle = [&](int y) { return height - 0.5 - y; };
+  lay_interface(s, start.value, [&](const std::array<int, 3>& p) {
+    const double h = below_middle(p[1]);
+    const double sagitta = curvature * h * h / (1 + std::sqrt(std::max(0.0, 1 - curvature * curvature * h * h)));
+    return 0.5 * length - (sagitta - curvature * o.half_gap * o.half_gap / 2) - p[0];
+  });
+
+  std::vector<std::array<double, 2>> points(static_cast<std::size_t>(height));
+  std::vector<double> profile(static_cast<std::size_t>(length));
+  const auto fit = [&](int skipped) {
+    return detail::fit_arc(std::span<const std::array<double, 2>>(points).subspan(static_cast<std::size_t>(skipped)));
+  };
+  const auto look = [&]() -> double {
+    c.driest = 1;
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < length; ++x) {
+        const auto rho = s.densities_at(static_cast<std::size_t>(s.sites().node_at(x, y, 0)));
+        profile[static_cast<std::size_t>(x)] = rho[0] - rho[1];
+        if (!std::isfinite(rho[0] + rho[1])) {
+          return quiet_nan<double>;
+        }
+        c.driest = y == 0 ? std::min(c.driest, (rho[1] - rho[0]) / (o.main - flat.value)) : c.driest;
+      }
+      const double at = detail::falls_below(profile, 0);
+      points[static_cast<std::size_t>(y)] = {at, below_middle(y)};
+      if (at < 0 && y >= o.skipped) {
+        return 0;  // one of the phases fills a row
+      }
+    }
+    return 2 - o.half_gap * fit(o.skipped).curvature;
+  };
+  c.rest = rest(s, o.rest, look);
+  if (c.rest.end != hold_end::stable) {
+    return c;
+  }
+  const detail::arc whole = fit(o.skipped);
+  const auto angle_of = [&](double curvature_found) {
+    return std::acos(std::clamp(-curvature_found * o.half_gap, -1.0, 1.0));  // the gas reaches out in the middle
+  };
+  c.curvature = -whole.curvature;
+  c.cosine = c.curvature * o.half_gap;
+  c.angle = angle_of(whole.curvature);
+  c.residual = whole.residual;
+  c.by_rows = std::abs(angle_of(fit(o.skipped + 2).curvature) - c.angle);
+  return c;
+}
+
+}  // namespace lbm
+}  // namespace tetrapore::inline TETRAPORE_ABI

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "tetrapore/law/bridge/young_laplace.hpp"
+#include "tetrapore/lbm/calibration.hpp"
+#include "tetrapore/lbm/contact_angle.hpp"
+
+/// \file
+/// A liquid bridge between two equal grains, one eighth of it between mirrors: the force that it pulls with and its
+/// suction, beside the exact law.
+
+namespace tetrapore::inline TETRAPORE_ABI {
+namespace lbm {
+
+/// Two grains on the z axis. \par Units  lattice units but where said
+struct pendular_set_up {
+  calibrated_mixture mixture{};
+  double radius = 24;        ///< of the grains [nodes]
+  double gap = 0;            ///< between them, in radii
+  double volume = 0.05;      ///< of the liquid to start from, in radii³
+  double contact_angle = 0;  ///< [rad]
+  double retraction = 1;     ///< nodes by which grains shrink: room for the film, or where the wall acts
+  int margin = 10;           ///< nodes beyond the bridge
+  rest_options rest{1000, 3e-4, 3, 60000};
+};
+
+/// What a bridge shows, and what the law says of it at the same suction.
+/// \par Units  σ and radius: suction × radius/σ, force/(σ radius), volume/radius³
+struct pendular_result {
+  double suction = 0;
+  double force = 0;      ///< through the plane between the grains, momentum counted link by link
+  double volume = 0;     ///< of the liquid, the film on the grains included
+  double neck = 0;       ///< radius of the neck
+  double law_force = 0;  ///< at the suction
+  double law_volume = 0;
+  double law_suction = 0;      ///< at the force
+  double tension = 0;          ///< σ at these densities
+  double wettest_gas = 0;      ///< (ρ1 − ρ0)/(main − dissolved) in the corner that is farthest from the liquid
+  double driest = 0;           ///< the same at the driest node beside a grain: below 0 where it is dry
+  double net_force_ratio = 0;  ///< force / law_force
+  rest_report rest;
+  bridge_status law = bridge_status::ok;
+};
+
+/// Lets a bridge of a given volume come to rest.
+///
+/// The force is the momentum that passes the plane between the grains, by populations and by bonds: no integral of an
+/// interface. The law is asked for the force at the suction that the fluids show; σ is that of their densities.
+/// \par Domain  a bridge that the law knows; a volume for which its neck and its contact line are resolved
+template <class Forcing = velocity_shift, std::floating_point T = float>
+[[nodiscard]] pendular_result pendular_bridge(const pendular_set_up& o) {
+  using Model = mixture<d3q19, bgk, Forcing>;
+  using L = d3q19;
+  pendular_result b;
+  const young_laplace<> law{
+      .surface_tension = 1.0, .contact_angle1 = o.contact_angle, .contact_angle2 = o.contact_angle};
+  const edge<double> pair{1, 1, o.gap, {0, 0, 1}};
+  const auto start = law.bridge(pair, given_volume<double>{o.volume});
+  b.law = start.reason;
+  if (!start.ok()) {
+    b.rest.end = hold_end::dissolved;
+    return b;
+  }
+  const double half_gap = o.radius * o.gap / 2;
+  const double contact = o.radius * std::sin(start.value.filling1);
+  const double top = half_gap + o.radius * (1 - std::cos(start.value.filling1));
+  const double neck = o.radius * start.value.neck;
+  const int side = static_cast<int>(std::max(contact, neck)) + o.margin;
+  const int height = static_cast<int>(top) + o.margin;
+  const double centre = half_gap + o.radius;
+
+  const auto model = repelling_pair<Model>(o.mixture.attraction, o.mixture.tau);
+  const coexistence phases{o.mixture.attraction, o.mixture.factor, (o.mixture.factor - 1) / 2, o.mixture.main};
+  const auto rho = reservoirs(phases, start.value.suction * o.mixture.flat_tension / o.radius);
+  if (!rho.ok()) {
+    b.rest.end = hold_end::dissolved;
+    return b;
+  }
+  constexpr face_kind mirror = face_kind::mirror;
+  const auto solid = [&](int x, int y, int z) {
+    const double r = o.radius - o.retraction;
+    const double dz = z + 0.5 - centre;
+    return (x + 0.5) * (x + 0.5) + (y + 0.5) * (y + 0.5) + dz * dz < r * r;
+  };
+  simulation<Model, T> s(
+      model, {{{side, side, height}, {mirror, mirror, mirror}, {mirror, mirror, mirror}}, [&](int x, int y, int z) {
+                return site{solid(x, y, z) ? site_kind::solid : site_kind::fluid, 0};
+              }});
+  s.set_wall(0, wall_of_wettability(o.mixture.main, o.mixture.dissolved, wettability(o.mixture, o.contact_angle)));
+  const auto& map = s.sites();
+  const auto corner = static_cast<std::size_t>(map.node_at(side - 1, side - 1, 0));
+  // where the gap is wide and the meniscus far
+  const int inner = static_cast<int>(0.3 * neck);
+  if (map.node_at(inner, inner, 0) < 0 || map.node_at(side - 1, side - 1, 0) < 0) {
+    throw parameter_error("bridge", "a gap of " + short_number(2 * half_gap) + " nodes", "one with a node in it");
+  }
+  const auto middle = static_cast<std::size_t>(map.node_at(inner, inner, 0));
+  const double step = o.mixture.main - o.mixture.dissolved;
+  double wettest = 0;
+  double mean_main = o.mixture.main;
+  const auto look = [&]() -> double {
+    const auto gas = s.densities_at(corner);
+    const auto liquid = s.densities_at(middle);
+    if (!std::isfinite(gas[0] + gas[1] + liquid[0] + liquid[1])) {
+      return quiet_nan<double>;
+    }
+    if (!(gas[0] > gas[1]) || !(liquid[1] > liquid[0])) {
+      return 0;
+    }
+    const double outside = model.pressure(gas);
+    double pull = 0;
+    double disc = 0;
+    for (int x = 0; x < side; ++x) {
+      for (int y = 0; y < side; ++y) {
+        if (map.node_at(x, y, 0) < 0) {
+          continue;
+        }
+        const auto n = static_cast<std::size_t>(map.node_at(x, y, 0));
+        const auto here = s.densities_at(n);
+        disc += (gas[0] - gas[1] - here[0] + here[1]) / (gas[0] - gas[1] - liquid[0] + liquid[1]);
+        double stress = 0;
+        for (std::size_t i = 0; i < Model::directions; ++i) {
+          if (L::velocity[i][2] != 1) {
+            continue;
+          }
+          for (std::size_t c = 0; c < 2; ++c) {  // what comes from the image, and as much goes there
+            stress += 2 * (static_cast<double>(s.population(c, n, i)) + L::weight[i] * model.reference[c]);
+          }
+          const auto beyond = map.seen(n, opposite(static_cast<int>(i))).node;
+          stress += detail::bond(model, i, here, s.densities_at(static_cast<std::size_t>(beyond)));
+        }
+        pull += outside - stress;
+      }
+    }
+    mean_main = (gas[0] + liquid[1]) / 2;
+    b.tension = surface_tension(o.mixture, mean_main);
+    b.suction = (outside - model.pressure(liquid)) * o.radius / b.tension;
+    b.force = 4 * pull / (b.tension * o.radius);
+    b.neck = std::sqrt(4 * disc / pi<double>) / o.radius;
+    wettest = (gas[1] - gas[0]) / step;
+    return b.force;
+  };
+  // walls repel both components and films hold some of one: what is laid is shifted until the bulk has the densities
+  // of the calibration
+  reservoir_pair laid = rho.value;
+  for (int turn = 0; turn < 3; ++turn) {
+    lay_interface(s, laid, [&](const std::array<int, 3>& p) {
+      const double rise = std::min((p[2] + 0.5) / top, 1.5);
+      return std::hypot(p[0] + 0.5, p[1] + 0.5) - (neck + (contact - neck) * rise * rise);
+    });
+    const rest_report r = rest(s, o.rest, look);
+    b.rest = {r.change, b.rest.steps + r.steps, b.rest.updates + r.updates, r.end};
+    const double miss = o.mixture.main - mean_main;
+    if (r.end != hold_end::stable || std::abs(miss) < 0.005 * o.mixture.main) {
+      break;
+    }
+    laid.gas[0] += miss;
+    laid.liquid[1] += miss;
+  }
+  if (b.rest.end != hold_end::stable) {
+    return b;
+  }
+  b.wettest_gas = wettest;
+  b.driest = 1;
+  const auto gas = s.densities_at(corner);
+  const auto liquid = s.densities_at(middle);
+  for (std::size_t n = 0; n < map.size(); ++n) {
+    const auto here = s.densities_at(n);
+    b.volume += (gas[0] - gas[1] - here[0] + here[1]) / (gas[0] - gas[1] - liquid[0] + liquid[1]);
+    for (int k = 1; k < static_cast<int>(Model::directions); ++k) {
+      const auto seen = map.seen(n, k);
+      if (seen.node < 0 && seen.image < 0) {
+        b.driest = std::min(b.driest, (here[1] - here[0]) / step);
+        break;
+      }
+    }
+  }
+  b.volume *= 8 / (o.radius * o.radius * o.radius);
+  const auto same_suction = law.bridge(pair, given_suction<double>{b.suction});
+  b.law = same_suction.reason;
+  if (same_suction.ok()) {
+    b.law_force = same_suction.value.force;
+    b.law_volume = same_suction.value.volume;
+    b.net_force_ratio = b.force / b.law_force;
+  }
+  return b;
+}
+
+}  // namespace lbm
+}  // namespace tetrapore::inline TETRAPORE_ABI
