@@ -108,6 +108,34 @@ template <class R>
   return (x + anchor) - anchor;
 }
 
+/// What leaves a node whose collision ends at the equilibrium, as few numbers: any direction follows from them, to the
+/// same bits wherever it is worked out.
+template <lattice L, class R>
+struct outgoing {
+  static constexpr std::size_t numbers = 3 + static_cast<std::size_t>(L::dimensions);
+  R at[numbers];  ///< what stays, flat, 3 ρ, u
+
+  [[gnu::always_inline]] explicit outgoing(const relaxation_target<R>& t) noexcept {
+    const equilibrium<L, R> eq(t);
+    at[1] = eq.flat;
+    at[2] = constant<R>(3) * t.rho;
+    repeat<L::dimensions>([&]<int A>(number<A>) TETRAPORE_INLINE { at[3 + A] = t.velocity[A]; });
+    at[0] = t.excess - sum_over_pairs<L, R>([]<int K>(number<K>) TETRAPORE_INLINE { return true; },
+                                            [&]<int K>(number<K>) TETRAPORE_INLINE {
+                                              const R cu = along_pair<L, K>(t.velocity);
+                                              return in_direction(constant<R>(pair_weight<K, L>), at[1], at[2], cu) +
+                                                     in_direction(constant<R>(pair_weight<K, L>), at[1], at[2], -cu);
+                                            });
+  }
+  /// What leaves in a direction, of a weight and a velocity along it.
+  [[nodiscard, gnu::always_inline]] static R in_direction(const R& weight, const R& flat, const R& triple_rho,
+                                                          const R& cu) noexcept {
+    const R odd = triple_rho * cu;
+    const R all = flat + odd * (R(1) + constant<R>(1.5) * cu);
+    return on_grid(weight * all);
+  }
+};
+
 /// Rounds what leaves a node to the grid and gives the rest population what is left of the sum. With a density within 1
 /// of its reference no mass is lost to rounding, in float neither: a rounding error at rest would repeat itself.
 template <lattice L, class R>
@@ -155,6 +183,7 @@ template <lattice L, class R, class Source>
 /// Bhatnagar, Gross and Krook: one relaxation time.
 /// \par Source  Qian, d'Humières & Lallemand, Europhys. Lett. 17, 479 (1992)
 struct bgk {
+  static constexpr bool equilibrium_at_one = true;  ///< with tau = 1 nothing is left but the equilibrium
   double tau = 1;
 
   [[nodiscard]] double rate() const noexcept { return 1 / tau; }
@@ -211,6 +240,7 @@ static_assert(collision<trt>);
 /// One relaxation time, of density, momentum and stress alone: what else the populations hold is dropped.
 /// \par Source  Latt & Chopard, Math. Comput. Simul. 72, 165 (2006)
 struct regularised {
+  static constexpr bool equilibrium_at_one = true;  ///< with tau = 1 nothing is left but the equilibrium
   double tau = 1;
 
   [[nodiscard]] double rate() const noexcept { return 1 / tau; }

@@ -27,6 +27,8 @@ template <lattice Lattice, class Collision, forcing_scheme Forcing = velocity_sh
   requires collision<Collision, Lattice>
 struct mixture {
   using lattice_type = Lattice;
+  using collision_type = Collision;
+  using forcing_type = Forcing;
   static constexpr int components = Components;
   static constexpr std::size_t directions = Lattice::directions;
   static_assert(Components >= 1, "a mixture has at least one component");
@@ -65,7 +67,8 @@ struct mixture {
   [[gnu::always_inline]] void collide(Take take, Seen seen, Give give) const noexcept {
     node_motion<R, Components> m;
     R excess[Components];
-    prepare(take, seen, m, excess);
+    moments_of(take, m, excess);
+    accelerate(seen, m);
     asm volatile("" ::: "memory");  // else a compiler keeps the first taking, on the stack
     R u[Components][3];
     forcing.template prepare<axes>(m, u);
@@ -86,6 +89,60 @@ struct mixture {
         how.template relax<Lattice>(f, t, no_source{});
       }
       detail::repeat<sites>([&]<int I>(detail::number<I> i) TETRAPORE_INLINE { give(c, i, f[I]); });
+    });
+  }
+
+  /// The same where the collision ends at the equilibrium, from the moments of what streamed in: `moment(c, 0)` is the
+  /// excess of density of component c, `moment(c, 1 + axis)` its momentum; `give(c, k, x)` gets the numbers of
+  /// detail::outgoing.
+  template <class R, class Moment, class Seen, class Give>
+  [[gnu::always_inline]] void depart(Moment moment, Seen seen, Give give) const noexcept {
+    node_motion<R, Components> m;
+    R excess[Components];
+    detail::repeat<count>([&]<int C>(detail::number<C> c) TETRAPORE_INLINE {
+      excess[C] = moment(c, detail::number<0>{});
+      m.rho[C] = detail::constant<R>(reference[static_cast<std::size_t>(C)]) + excess[C];
+      m.rate[C] = R(1);
+      detail::repeat<axes>([&]<int A>(detail::number<A>)
+                               TETRAPORE_INLINE { m.momentum[C][A] = moment(c, detail::number<1 + A>{}); });
+    });
+    accelerate(seen, m);
+    R u[Components][3];
+    forcing.template prepare<axes>(m, u);
+    detail::repeat<count>([&]<int C>(detail::number<C> c) TETRAPORE_INLINE {
+      relaxation_target<R> t;
+      t.excess = excess[C];
+      t.rho = m.rho[C];
+      detail::repeat<axes>([&]<int A>(detail::number<A>) TETRAPORE_INLINE { t.velocity[A] = u[C][A]; });
+      const detail::outgoing<Lattice, R> o(t);
+      detail::repeat<3 + axes>([&]<int K>(detail::number<K> k) TETRAPORE_INLINE { give(c, k, o.at[K]); });
+    });
+  }
+  /// The moments of what streams into a node: `from(c, i, k)` is number k of the node that direction i comes from.
+  template <class R, class From, class Give>
+  [[gnu::always_inline]] static void arrive(From from, Give give) noexcept {
+    using out = detail::outgoing<Lattice, R>;
+    detail::repeat<count>([&]<int C>(detail::number<C> c) TETRAPORE_INLINE {
+      R f[directions];
+      f[0] = from(c, detail::number<0>{}, detail::number<0>{});
+      detail::repeat<sites - 1>([&]<int J>(detail::number<J>) TETRAPORE_INLINE {
+        constexpr int i = J + 1;
+        constexpr int pair = J / 2;
+        R u[3];
+        detail::repeat<axes>([&]<int A>(detail::number<A>) TETRAPORE_INLINE {
+          if constexpr (detail::along<Lattice>(pair, A) != 0) {
+            u[A] = from(c, detail::number<i>{}, detail::number<3 + A>{});
+          }
+        });
+        const R cu = detail::along_pair<Lattice, pair>(u);
+        f[i] = out::in_direction(detail::constant<R>(detail::pair_weight<pair, Lattice>),
+                                 from(c, detail::number<i>{}, detail::number<1>{}),
+                                 from(c, detail::number<i>{}, detail::number<2>{}), J % 2 == 0 ? cu : -cu);
+      });
+      give(c, detail::number<0>{}, excess_of(f));
+      detail::repeat<axes>([&]<int A>(detail::number<A>) TETRAPORE_INLINE {
+        give(c, detail::number<1 + A>{}, detail::first_moment<Lattice, A>(f));
+      });
     });
   }
 
@@ -135,23 +192,32 @@ struct mixture {
   /// The velocity of the mixture at a node, half of the force included.
   template <class R, class Seen>
   void flow(const R (&f)[Components][directions], Seen seen, R (&velocity)[3]) const noexcept {
-    node_motion<R, Components> m;
     R excess[Components];
-    prepare([&]<int C, int I>(detail::number<C>, detail::number<I>) TETRAPORE_INLINE { return f[C][I]; }, seen, m,
-            excess);
-    R mass = m.rho[0];
-    for (std::size_t c = 1; c < Components; ++c) {
+    R momentum[Components][3];
+    for (std::size_t c = 0; c < Components; ++c) {
+      excess[c] = excess_of(f[c]);
+      detail::repeat<axes>([&]<int A>(detail::number<A>)
+                               TETRAPORE_INLINE { momentum[c][A] = detail::first_moment<Lattice, A>(f[c]); });
+    }
+    flow(excess, momentum, seen, velocity);
+  }
+  /// The same from the moments of the populations.
+  template <class R, class Seen>
+  void flow(const R (&excess)[Components], const R (&momentum)[Components][3], Seen seen,
+            R (&velocity)[3]) const noexcept {
+    node_motion<R, Components> m;
+    R mass(0);
+    for (std::size_t c = 0; c < Components; ++c) {
+      m.rho[c] = detail::constant<R>(reference[c]) + excess[c];
       mass = mass + m.rho[c];
     }
-    for (int a = 0; a < axes; ++a) {
+    accelerate(seen, m);
+    for (int a = 0; a < 3; ++a) {
       velocity[a] = R(0);
-      for (std::size_t c = 0; c < Components; ++c) {
+      for (std::size_t c = 0; c < Components && a < axes; ++c) {
         velocity[a] =
-            velocity[a] + (m.momentum[c][a] + detail::constant<R>(0.5) * m.rho[c] * m.acceleration[c][a]) / mass;
+            velocity[a] + (momentum[c][a] + detail::constant<R>(0.5) * m.rho[c] * m.acceleration[c][a]) / mass;
       }
-    }
-    for (int a = axes; a < 3; ++a) {
-      velocity[a] = R(0);
     }
   }
 
@@ -172,23 +238,30 @@ struct mixture {
   static constexpr int count = static_cast<int>(Components);
   static constexpr int sites = static_cast<int>(directions);
 
-  template <class R, class Take, class Seen>
-  [[gnu::always_inline]] void prepare(Take take, Seen seen, node_motion<R, Components>& m,
-                                      R (&excess)[Components]) const noexcept {
-    R slope[Components][3];  // Σ w ψ(x + c) c
+  template <class R, class Take>
+  [[gnu::always_inline]] void moments_of(Take take, node_motion<R, Components>& m,
+                                         R (&excess)[Components]) const noexcept {
     detail::repeat<count>([&]<int C>(detail::number<C> c) TETRAPORE_INLINE {
       R f[directions];
       detail::repeat<sites>([&]<int I>(detail::number<I> i) TETRAPORE_INLINE { f[I] = take(c, i); });
       excess[C] = excess_of(f);
       m.rho[C] = detail::constant<R>(reference[static_cast<std::size_t>(C)]) + excess[C];
       m.rate[C] = detail::constant<R>(collisions[static_cast<std::size_t>(C)].rate());
+      detail::repeat<axes>([&]<int A>(detail::number<A>)
+                               TETRAPORE_INLINE { m.momentum[C][A] = detail::first_moment<Lattice, A>(f); });
+    });
+  }
+
+  template <class R, class Seen>
+  [[gnu::always_inline]] void accelerate(Seen seen, node_motion<R, Components>& m) const noexcept {
+    R slope[Components][3];  // Σ w ψ(x + c) c
+    detail::repeat<count>([&]<int C>(detail::number<C> c) TETRAPORE_INLINE {
       R step[pairs<Lattice>];
       detail::repeat<pairs<Lattice>>([&]<int K>(detail::number<K>) TETRAPORE_INLINE {
         step[K] = detail::constant<R>(detail::pair_weight<K, Lattice>) *
                   (seen(c, detail::number<2 * K + 1>{}) - seen(c, detail::number<2 * K + 2>{}));
       });
       detail::repeat<axes>([&]<int A>(detail::number<A>) TETRAPORE_INLINE {
-        m.momentum[C][A] = detail::first_moment<Lattice, A>(f);
         slope[C][A] = detail::sum_over_pairs<Lattice, R>(
             []<int K>(detail::number<K>) TETRAPORE_INLINE { return detail::along<Lattice>(K, A) != 0; },
             [&]<int K>(detail::number<K>)

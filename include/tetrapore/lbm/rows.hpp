@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -32,7 +33,7 @@ class row_layout {
   using places = std::array<std::int64_t, directions>;
   using offsets = std::array<std::int32_t, directions>;
 
-  /// Nodes side by side, none of a reservoir.
+  /// Nodes side by side.
   struct run {
     std::int32_t cell;  ///< of the first node
     std::int32_t nodes;
@@ -43,14 +44,20 @@ class row_layout {
   struct neighbours {
     places to;
     offsets seen;
+    std::uint32_t turned;  ///< a bit for each direction that a face of the box turns round
     friend bool operator<(const neighbours& a, const neighbours& b) noexcept {
-      return std::pair(a.to, a.seen) < std::pair(b.to, b.seen);
+      return std::tie(a.to, a.seen, a.turned) < std::tie(b.to, b.seen, b.turned);
     }
   };
   /// What a node sends to a cell that is no node, and where it belongs.
   struct link {
     std::uint32_t cell;
     std::uint32_t gate;
+  };
+  /// A node and a direction in which no neighbour is, or none that gets what leaves as it is.
+  struct detour {
+    std::int32_t node;
+    std::uint8_t direction;
   };
   /// A cell that shows the ψ of another.
   struct copy {
@@ -70,12 +77,16 @@ class row_layout {
   struct plane {
     std::size_t first_run, last_run;
     std::size_t first_link, last_link;
+    std::size_t first_detour, last_detour;
     std::size_t first_copy, last_copy;
+    std::int32_t first_cell, last_cell;
   };
 
   row_layout() = default;
   /// \param lanes  so many cells beyond a run may be read and written as they were
-  row_layout(const site_map<L>& map, std::size_t lanes, std::size_t per_cache_line) : map_(&map), lanes_(lanes) {
+  /// \param through_reservoirs  whether runs lead through nodes of reservoirs
+  row_layout(const site_map<L>& map, std::size_t lanes, std::size_t per_cache_line, bool through_reservoirs)
+      : map_(&map), lanes_(lanes), through_(through_reservoirs) {
     along_ = map.box().size[2] == 1 ? 1 : 2;
     across_ = 3 - along_;
     length_ = static_cast<std::size_t>(map.box().size[along_]) + 2;
@@ -113,6 +124,7 @@ class row_layout {
   [[nodiscard]] const std::vector<run>& runs() const noexcept { return runs_; }
   [[nodiscard]] const std::vector<neighbours>& tables() const noexcept { return tables_; }
   [[nodiscard]] const std::vector<link>& links() const noexcept { return links_; }
+  [[nodiscard]] const std::vector<detour>& detours() const noexcept { return detours_; }
   [[nodiscard]] const std::vector<copy>& copies() const noexcept { return copies_; }
   [[nodiscard]] const std::vector<wall>& walls() const noexcept { return walls_; }
   [[nodiscard]] const std::vector<image>& images() const noexcept { return images_; }
@@ -201,15 +213,15 @@ class row_layout {
   }
 
   void add_plane(std::size_t x) {
-    plane p{runs_.size(), 0, links_.size(), 0, 0, 0};
+    plane p{runs_.size(), 0, links_.size(), 0, detours_.size(), 0, 0, 0, cell_of_row(x), cell_of_row(x + 1)};
     const auto end = static_cast<std::size_t>(map_->plane_begin(x + 1));
     for (auto n = static_cast<std::size_t>(map_->plane_begin(x)); n < end;) {
-      if (map_->at(n).kind == site_kind::reservoir) {
+      if (!belongs(n)) {
         ++n;
         continue;
       }
       std::size_t upto = n + 1;
-      while (upto < end && map_->at(upto).kind != site_kind::reservoir && follows(upto)) {
+      while (upto < end && belongs(upto) && follows(upto)) {
         ++upto;
       }
       add_run(n, upto);
@@ -217,7 +229,20 @@ class row_layout {
     }
     p.last_run = runs_.size();
     p.last_link = links_.size();
+    p.last_detour = detours_.size();
     planes_.push_back(p);
+  }
+  /// The first cell at or behind the beginning of a plane.
+  [[nodiscard]] std::int32_t cell_of_row(std::size_t x) const noexcept {
+    for (std::size_t k = x * static_cast<std::size_t>(map_->box().size[across_]) * length_; k < at_.size(); ++k) {
+      if (at_[k] != none) {
+        return at_[k];
+      }
+    }
+    return idle();
+  }
+  [[nodiscard]] bool belongs(std::size_t n) const noexcept {
+    return through_ || map_->at(n).kind != site_kind::reservoir;
   }
   [[nodiscard]] bool follows(std::size_t n) const noexcept {
     auto p = map_->place(n - 1);
@@ -235,10 +260,15 @@ class row_layout {
       const auto d = static_cast<std::size_t>(k);
       by.to[d] = static_cast<std::int64_t>(place(there, slot(b.as))) - static_cast<std::int64_t>(place(cell, 0));
       by.seen[d] = b.wall ? face() - cell : there - cell;
+      by.turned |= b.as != k ? 1U << d : 0U;
       for (std::size_t n = first; n < last && k != 0; ++n) {
         const auto virtual_cell = there + static_cast<std::int32_t>(n - first);
         const std::size_t virtual_place = place(virtual_cell, slot(b.as));
-        const std::size_t really = gate(map_->leaving(n, k));
+        const auto to = map_->leaving(n, k);
+        const std::size_t really = gate(to);
+        if (b.as != k || to.as != k || cells_[static_cast<std::size_t>(to.to)] != virtual_cell) {
+          detours_.push_back({static_cast<std::int32_t>(n), static_cast<std::uint8_t>(k)});
+        }
         if (really != virtual_place) {
           links_.push_back({static_cast<std::uint32_t>(virtual_place), static_cast<std::uint32_t>(really)});
         }
@@ -286,6 +316,7 @@ class row_layout {
 
   const site_map<L>* map_ = nullptr;  ///< while the layout is made
   std::size_t lanes_ = 0;
+  bool through_ = false;
   std::size_t along_ = 2;   ///< the axis of rows
   std::size_t across_ = 1;  ///< the other one of a plane
   std::size_t length_ = 0;  ///< of a row, its two ends beyond the box included
@@ -300,6 +331,7 @@ class row_layout {
   std::vector<run> runs_;
   std::vector<neighbours> tables_;
   std::vector<link> links_;
+  std::vector<detour> detours_;
   std::vector<copy> copies_;
   std::vector<wall> walls_;
   std::vector<image> images_;

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "tetrapore/lbm/mixture.hpp"
-#include "tetrapore/lbm/rows.hpp"
-#include "tetrapore/lbm/sites.hpp"
+#include "tetrapore/lbm/surroundings.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,10 +11,6 @@
 #include <new>
 #include <span>
 #include <vector>
-
-#if defined(__linux__)
-#include <sys/mman.h>
-#endif
 
 /// \file
 /// The loop over nodes: how populations are stored, streamed and handed to the mixture.
@@ -29,104 +23,33 @@
 namespace tetrapore::inline TETRAPORE_ABI {
 namespace lbm {
 
-/// How populations are stored.
-enum class storage {
-  in_place,     ///< once: even steps turn populations round at their node, odd ones exchange them with the neighbours
-  two_lattices  ///< twice: from one into the other. The plain reference
-};
-
-namespace detail {
-
-inline constexpr std::size_t cache_line = 64;
-
-/// Numbers that begin on a cache line; many of them on huge pages, where the system has some.
-template <class T>
-struct cache_aligned {
-  using value_type = T;
-  cache_aligned() = default;
-  template <class U>
-  constexpr explicit cache_aligned(const cache_aligned<U>&) noexcept {}
-  [[nodiscard]] T* allocate(std::size_t n) {
-    void* p = ::operator new(n * sizeof(T), alignment(n));
-#if defined(__linux__)
-    if (n * sizeof(T) >= huge_page) {
-      madvise(p, n * sizeof(T), MADV_HUGEPAGE);  // advice: the result changes speed alone
-    }
-#endif
-    return static_cast<T*>(p);
-  }
-  void deallocate(T* p, std::size_t n) noexcept { ::operator delete(p, alignment(n)); }
-  [[nodiscard]] friend bool operator==(const cache_aligned&, const cache_aligned&) noexcept { return true; }
-
- private:
-  static constexpr std::size_t huge_page = std::size_t{1} << 21U;
-  [[nodiscard]] static constexpr std::align_val_t alignment(std::size_t n) noexcept {
-    return std::align_val_t{n * sizeof(T) >= huge_page ? huge_page : cache_line};
-  }
-};
-template <class T>
-using aligned_vector = std::vector<T, cache_aligned<T>>;
-
-}  // namespace detail
-
 /// A mixture on the fluid nodes of a lattice.
 /// \par Units   lattice units: nodes and steps
 /// \tparam Model    a mixture
 /// \tparam T        float or double, in which populations are stored and worked with
-/// \tparam Storage  in_place or two_lattices: the same numbers, bit for bit
+/// \tparam Storage  in_place or two_lattices: the same numbers, bit for bit; moments, by its header: to rounding
 /// \tparam Lanes    nodes in a batch
 template <class Model, std::floating_point T = double, storage Storage = storage::in_place, int Lanes = native_lanes<T>>
-class simulation {
+class simulation : public detail::surroundings<Model, T, Lanes, Storage == storage::two_lattices> {
+  static_assert(Storage != storage::moments, "storage::moments takes #include <tetrapore/lbm/moments.hpp>");
+  using base = detail::surroundings<Model, T, Lanes, Storage == storage::two_lattices>;
+
  public:
-  using lattice_type = typename Model::lattice_type;
-  static constexpr std::size_t components = Model::components;
-  static constexpr std::size_t directions = Model::directions;
-  using densities = std::array<double, components>;
+  using base::components;
+  using base::directions;
+  using typename base::densities;
+  using typename base::lattice_type;
 
   /// All nodes at the mixture's reference densities, at rest; walls and reservoirs show them too.
-  simulation(const Model& model, site_map<lattice_type> map) : model_(model), map_(std::move(map)) {
-    for (const auto& c : model_.collisions) {
-      if (!(c.tau > 0.5)) {
-        throw parameter_error("collision", "tau = " + short_number(c.tau), "more than 0.5");
-      }
-    }
-    rows_ = layout_type(map_, width, per_line);
+  simulation(const Model& model, site_map<lattice_type> map) : base(model, std::move(map), false) {
     f_.assign(components * directions * rows_.stride() + beyond, T(0));
     if constexpr (Storage == storage::two_lattices) {
       next_.assign(f_.size(), T(0));
     }
-    for (std::size_t c = 0; c < components; ++c) {
-      psi_[c].assign(beyond + static_cast<std::size_t>(cell_of_wall(0)) + tags + beyond,
-                     static_cast<T>(model_.potential(model_.reference[c])));
-    }
-    walls_.fill(model_.reference);
-    reservoirs_.fill(model_.reference);
-    make_planes();
-    make_images();
+    make_held();
   }
 
-  [[nodiscard]] const Model& model() const noexcept { return model_; }
-  [[nodiscard]] const site_map<lattice_type>& sites() const noexcept { return map_; }
   [[nodiscard]] std::size_t steps() const noexcept { return steps_; }
-
-  /// The densities that walls of a tag show their neighbours.
-  void set_wall(std::uint8_t tag, const densities& rho) {
-    walls_[tag] = rho;
-    for (std::size_t c = 0; c < components; ++c) {
-      const auto shown = static_cast<T>(model_.potential(rho[c]));
-      psi(c)[cell_of_wall(tag)] = shown;
-      for (const auto& wall : rows_.walls()) {
-        if (wall.tag == tag) {
-          psi(c)[wall.cell] = shown;
-        }
-      }
-      if (tag == 0) {
-        std::fill_n(psi(c) + rows_.face(), rows_.longest() + width, shown);
-      }
-    }
-  }
-  void set_reservoir(std::uint8_t tag, const densities& rho) { reservoirs_[tag] = rho; }
-  void set_gravity(const std::array<double, 3>& g) { model_.gravity = g; }
 
   /// Densities and velocity of every node: `of(place, rho, u)` fills them. Populations become the equilibrium.
   template <class Of>
@@ -198,8 +121,8 @@ class simulation {
     for (std::size_t c = 0; c < components; ++c) {
       for (std::size_t i = 0; i < directions; ++i) {
         f[c][i] = static_cast<double>(population(c, node, i));
-        const auto s = map_.seen(node, static_cast<int>(i));
-        psi[c][i] = psi_of(c, s);
+        psi[c][i] = this->psi_of(c, map_.seen(node, static_cast<int>(i)),
+                                 [this](std::size_t of, std::size_t n) { return density(of, n); });
       }
     }
     double u[3];
@@ -209,37 +132,25 @@ class simulation {
   }
   /// Mass of a component in all nodes that are no reservoir.
   [[nodiscard]] double mass(std::size_t component) const noexcept {
-    double excess = 0;
-    double lost = 0;  // Kahan's correction
-    std::size_t nodes = 0;
-    for (std::size_t n = 0; n < map_.size(); ++n) {
-      if (map_.at(n).kind == site_kind::reservoir) {
-        continue;
-      }
-      ++nodes;
+    return this->mass_of(component, [&](std::size_t n, auto add) {
       for (std::size_t i = 0; i < directions; ++i) {
-        const double x = static_cast<double>(population(component, n, i)) - lost;
-        const double sum = excess + x;
-        lost = (sum - excess) - x;
-        excess = sum;
+        add(static_cast<double>(population(component, n, i)));
       }
-    }
-    return excess + model_.reference[component] * static_cast<double>(nodes);
+    });
   }
 
  private:
   enum class stream { turn, exchange, pull };
-  static constexpr std::size_t tags = 256;
-  static constexpr std::int32_t none = site_map<lattice_type>::none;
-  static constexpr std::size_t width = static_cast<std::size_t>(Lanes);
+  using base::beyond;
+  using base::map_;
+  using base::model_;
+  using base::reservoirs_;
+  using base::rows_;
+  using base::width;
+  using typename base::layout_type;
+  using typename base::run_type;
   static constexpr int count = static_cast<int>(directions);
   using number = pack<T, Lanes>;
-  using layout_type = row_layout<lattice_type, Storage == storage::two_lattices>;
-  using run_type = typename layout_type::run;
-
-  static constexpr std::size_t per_line = detail::cache_line / sizeof(T);
-  static constexpr std::size_t beyond = std::max<std::size_t>(width, per_line);
-  static_assert(Lanes >= 1 && Lanes <= 32, "a bit of 32 for each node of a batch");
 
   /// Nodes of a reservoir.
   struct held_batch {
@@ -247,20 +158,6 @@ class simulation {
     std::uint32_t gate[directions][width];
     std::uint8_t tag;
   };
-  /// What of all lists belongs to nodes of one x.
-  struct plane {
-    std::size_t first_held, last_held;
-    std::size_t first_image, last_image;  ///< which this plane is the first to see
-    std::size_t needs;                    ///< how many planes must show their ψ before this one is updated
-  };
-  /// ψ of a point beyond a mirror, from nodes and walls.
-  struct image_cells {
-    std::int32_t from[8];
-    T weight[8];
-    std::size_t count;
-    std::int32_t cell;
-  };
-
   [[nodiscard]] static constexpr std::size_t reversed(std::size_t i) noexcept {
     return static_cast<std::size_t>(opposite(static_cast<int>(i)));
   }
@@ -273,23 +170,12 @@ class simulation {
     return own ? rows_.place(rows_.cell(node), i) : rows_.gate(map_.leaving(node, opposite(static_cast<int>(i))));
   }
 
-  [[nodiscard]] double shown(std::size_t c, std::size_t node) const noexcept {
-    const site s = map_.at(node);
-    return s.kind == site_kind::reservoir ? reservoirs_[s.tag][c] : density(c, node);
-  }
-
-  [[nodiscard]] T* psi(std::size_t c) noexcept { return psi_[c].data() + beyond; }
   [[nodiscard]] T* slots(detail::aligned_vector<T>& f, std::size_t c) const noexcept {
     return f.data() + c * directions * rows_.stride();
   }
-  /// Where ψ of walls of a tag is kept.
-  [[nodiscard]] std::int32_t cell_of_wall(std::uint8_t tag) const noexcept {
-    return rows_.face() + static_cast<std::int32_t>(rows_.longest() + width) + tag;
-  }
-
-  void make_planes() {
+  void make_held() {
+    held_of_.push_back(0);
     for (std::size_t x = 0; x < map_.plane_count(); ++x) {
-      plane p{held_.size(), 0, 0, 0, std::min(x + 2, map_.plane_count())};
       std::vector<std::size_t> held;
       for (auto n = static_cast<std::size_t>(map_.plane_begin(x));
            n < static_cast<std::size_t>(map_.plane_begin(x + 1)); ++n) {
@@ -308,8 +194,7 @@ class simulation {
         held_.push_back(held_by(tag(k), std::span(held).subspan(k, upto - k)));
         k = upto;
       }
-      p.last_held = held_.size();
-      planes_.push_back(p);
+      held_of_.push_back(held_.size());
     }
   }
   [[nodiscard]] held_batch held_by(std::uint8_t tag, std::span<const std::size_t> nodes) const {
@@ -326,71 +211,23 @@ class simulation {
     return b;
   }
 
-  /// Images in the order of the first plane that sees them.
-  void make_images() {
-    std::size_t needs = 0;
-    for (std::size_t x = 0; x < planes_.size(); ++x) {
-      planes_[x].first_image = images_.size();
-      while (images_.size() < rows_.images().size() &&
-             rows_.images()[images_.size()].first_user == static_cast<int>(x)) {
-        const auto& at = rows_.images()[images_.size()];
-        const auto& shows = map_.images()[static_cast<std::size_t>(at.index)];
-        image_cells image{};
-        image.count = shows.count;
-        image.cell = at.cell;
-        for (std::size_t s = 0; s < shows.count; ++s) {
-          const auto& from = shows.from[s];
-          image.from[s] = from.node == none ? cell_of_wall(from.wall) : rows_.cell(static_cast<std::size_t>(from.node));
-          image.weight[s] = static_cast<T>(from.weight);
-        }
-        images_.push_back(image);
-        needs = std::max(needs, static_cast<std::size_t>(shows.last_plane) + 1);
-      }
-      planes_[x].last_image = images_.size();
-      planes_[x].needs = std::max(planes_[x].needs, needs);
-    }
-  }
-  [[nodiscard]] double psi_of(std::size_t c, const typename site_map<lattice_type>::sight& s) const noexcept {
-    if (s.image == none) {
-      return model_.potential(s.node == none ? walls_[s.wall][c] : shown(c, static_cast<std::size_t>(s.node)));
-    }
-    const auto& image = map_.images()[static_cast<std::size_t>(s.image)];
-    double sum = 0;
-    for (std::size_t k = 0; k < image.count; ++k) {
-      sum += image.from[k].weight * psi_of(c, {image.from[k].node, none, image.from[k].wall});
-    }
-    return sum;
-  }
-
   template <stream S>
   void sweep() {
-    const std::size_t planes = planes_.size();
+    const std::size_t planes = map_.plane_count();
     const bool wrap = map_.box().low[0] == face_kind::periodic;
     if (wrap) {
       prepare<S>(planes - 1);
     }
     std::size_t ready = 0;
     for (std::size_t x = 0; x < planes; ++x) {
-      for (; ready < planes_[x].needs; ++ready) {
+      const auto& images = this->image_ranges_[x];
+      for (; ready < images.needs; ++ready) {
         if (!(wrap && ready + 1 == planes)) {
           prepare<S>(ready);
         }
       }
-      show_images(planes_[x]);
+      this->show_images(images.first, images.last);
       update<S>(x);
-    }
-  }
-
-  void show_images(const plane& p) noexcept {
-    for (std::size_t k = p.first_image; k < p.last_image; ++k) {
-      const auto& image = images_[k];
-      for (std::size_t c = 0; c < components; ++c) {
-        T sum(0);
-        for (std::size_t s = 0; s < image.count; ++s) {
-          sum += image.weight[s] * psi(c)[image.from[s]];
-        }
-        psi(c)[image.cell] = sum;
-      }
     }
   }
 
@@ -420,11 +257,6 @@ class simulation {
     } else {
       return static_cast<std::ptrdiff_t>(to[reversed(i)]);  // populations change places in pairs
     }
-  }
-
-  /// The lanes of a batch whose nodes belong to the run.
-  [[nodiscard]] static constexpr std::uint32_t lanes_of(std::ptrdiff_t left) noexcept {
-    return static_cast<std::uint32_t>((std::uint64_t{1} << static_cast<std::size_t>(left)) - 1);
   }
 
   /// What arrives from cells that are no nodes.
@@ -474,18 +306,16 @@ class simulation {
           all(n).store(shown + n);
         }
         if (n < run.nodes) {
-          number::select(lanes_of(run.nodes - n), all(n), number::load(shown + n)).store(shown + n);
+          number::select(base::lanes_of(run.nodes - n), all(n), number::load(shown + n)).store(shown + n);
         }
       }
-      for (std::size_t h = planes_[x].first_held; h < planes_[x].last_held; ++h) {
+      for (std::size_t h = held_of_[x]; h < held_of_[x + 1]; ++h) {
         const T value = static_cast<T>(model.potential(reservoirs_[held_[h].tag][c]));
         for (const std::int32_t cell : held_[h].cell) {
           psi[cell] = value;
         }
       }
-      for (std::size_t k = p.first_copy; k < p.last_copy; ++k) {
-        psi[rows_.copies()[k].to] = psi[rows_.copies()[k].from];
-      }
+      this->show_copies(c, p.first_copy, p.last_copy);
     }
   }
 
@@ -530,7 +360,7 @@ class simulation {
         }
       }
       if (whole < run.nodes) {
-        const std::uint32_t lanes = lanes_of(run.nodes - whole);
+        const std::uint32_t lanes = base::lanes_of(run.nodes - whole);
         for (std::size_t c = 0; c < components; ++c) {
           T* const g = slots(next, c) + run.cell + whole;
           for (std::size_t k = 0; k < directions; ++k) {
@@ -540,7 +370,7 @@ class simulation {
         }
       }
     }
-    for (std::size_t h = planes_[x].first_held; h < planes_[x].last_held; ++h) {
+    for (std::size_t h = held_of_[x]; h < held_of_[x + 1]; ++h) {
       hold<S>(held_[h], next);
     }
     if constexpr (S == stream::exchange) {
@@ -574,18 +404,11 @@ class simulation {
     }
   }
 
-  Model model_;
-  site_map<lattice_type> map_;
-  layout_type rows_;
   std::size_t steps_ = 0;
   detail::aligned_vector<T> f_;  ///< slots of all cells, one behind the other, component by component
   detail::aligned_vector<T> next_;
-  std::array<detail::aligned_vector<T>, components> psi_;
-  std::array<densities, tags> walls_;
-  std::array<densities, tags> reservoirs_;
   std::vector<held_batch> held_;
-  std::vector<plane> planes_;
-  std::vector<image_cells> images_;
+  std::vector<std::size_t> held_of_;  ///< where the batches of each plane begin
 };
 
 }  // namespace lbm

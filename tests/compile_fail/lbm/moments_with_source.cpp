@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Moments tell what a node sends where its collision ends at the equilibrium, without a source.
+// expect: storage::moments takes bgk or regularised with tau = 1 and velocity_shift
+#include "tetrapore/lbm/moments.hpp"
+
+using namespace tetrapore::lbm;
+using fluids = mixture<d3q19, bgk, guo>;
+using kept = simulation<fluids, double, storage::moments>;
+static_assert(sizeof(kept) > 0);
