@@ -6,12 +6,17 @@
 // A run that is killed goes on from the state in its folder. `throat_experiment --help` lists the options,
 // docs/throat_experiment.md says what comes out.
 #include "support/keys.hpp"
+#include "support/meniscus_picture.hpp"
 #include "support/stopwatch.hpp"
 #include "support/throat_files.hpp"
 #include "support/throat_job.hpp"
 
+#include <array>
+#include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
+#include <string>
 
 namespace tp = tetrapore;
 namespace lbm = tetrapore::lbm;
@@ -21,30 +26,72 @@ namespace {
 template <class Experiment>
 void print(const Experiment& e, const lbm::threshold_search& search, std::uint64_t updates, double seconds) {
   const auto& found = search.now();
-  const double princen = e.lattice_pressure(e.plane().princen);
+  const lbm::entry_result result = e.result(search);
   const support::key_printer key;
-  std::printf("end=%s\n", describe(found.end));
-  std::printf("last_hold=%s\n", describe(found.last));
-  // the correction is calibrated for θ = 0 and its own retraction; elsewhere there is none to make
-  const bool calibrated = e.set_up().contact_angle == 0 && e.set_up().retraction == lbm::entry_set_up{}.retraction;
-  const double correction = calibrated ? lbm::entry_correction(e.inscribed()) : 1;
-  key("entry_ratio_msp", correction * search.value() / princen);
-  key("correction", correction);
-  key("entry_ratio_msp_raw", search.value() / princen);
-  key("entry_ratio_best2d", search.value() / e.lattice_pressure(e.plane().best));
-  key("best2d_ratio_msp", e.plane().best / e.plane().princen);
-  std::printf("bracket=%.6g..%.6g\n", found.lower / princen, found.upper / princen);
-  key("measured_lower", found.measured_lower / princen);
+  std::printf("end=%s\n", describe(result.end));
+  std::printf("last_hold=%s\n", describe(result.last));
+  // where arcs alone have no entry pressure, all ratios are to the least plane value
+  const double unit = std::isfinite(e.plane().princen) ? e.plane().princen : e.plane().best;
+  key("entry_ratio_msp", result.value / unit);
+  key("correction", result.correction);
+  key("discretisation", result.discretisation);
+  key("entry_ratio_msp_raw", result.value / result.correction / unit);
+  key("entry_ratio_best2d", result.value / result.correction / e.plane().best);
+  key("best2d_ratio_msp", e.plane().best / unit);
+  std::printf("bracket=%.6g..%.6g\n", result.lower / unit, result.upper / unit);
+  key("measured_lower", found.measured_lower / e.lattice_pressure(unit));
   key("entry_pressure_lattice", search.value());
   key("surface_tension_lattice", e.set_up().pair.surface_tension);
   key("inscribed_nodes", e.inscribed());
   key("retraction_nodes", e.set_up().retraction);
   key("fluid_nodes", e.fluid_nodes());
-  key("holds", std::size_t{found.holds});
-  key("steps", static_cast<std::size_t>(found.steps));
-  key("updates", static_cast<std::size_t>(found.updates));
+  key("holds", std::size_t{result.holds});
+  key("steps", static_cast<std::size_t>(result.steps));
+  key("updates", static_cast<std::size_t>(result.updates));
   key("mlups", static_cast<double>(updates) / seconds * 1e-6);
   key("seconds", seconds);
+}
+
+// Above the entry pressure the gas goes on: a picture at four moments, and what rings it leaves.
+template <class T>
+void leave_rings(const support::throat_job& job, double capillary) {
+  lbm::ring_experiment<T> experiment(support::set_up_of(job));
+  support::throat_series series(job.out, "rings", 0);
+  support::meniscus_picture panels;
+  const double inscribed = job.resolution;
+  std::uint64_t through = 0;
+  const lbm::hold_report r = experiment.drain(capillary, [&](const lbm::hold_report& now) {
+    if (now.steps % 1000 == 0) {
+      series.add(experiment, now.steps);
+    }
+    // it bends, goes through, and splits
+    const bool at_bottom = now.end == lbm::hold_end::passed;
+    through = at_bottom && through == 0 ? now.steps : through;
+    const std::array<bool, 3> moments{now.position < 0, now.position < -2 * inscribed || at_bottom,
+                                      at_bottom && now.steps > through + 300};
+    if (panels.panels() < 3 && moments[panels.panels()]) {
+      panels.add(experiment);
+    }
+  });
+  panels.add(experiment);
+  if (r.steps % 1000 != 0) {
+    series.add(experiment, r.steps);
+  }
+  support::write_png(job.out / "meniscus.png", panels.draw());
+  const support::key_printer key;
+  std::printf("rings_end=%s\n", r.end == lbm::hold_end::passed ? "gas on both sides" : describe(r.end));
+  key("rings_steps", static_cast<std::size_t>(r.steps));
+  for (const lbm::ring_report& ring : experiment.rings(capillary)) {
+    const std::string name = "ring_" + std::to_string(ring.side + 1) + std::to_string((ring.side + 1) % 3 + 1);
+    std::printf("%s=%s\n", name.c_str(), describe(ring.law));
+    if (verdict_of(ring.law) == tp::verdict::ok) {
+      key((name + "_volume").c_str(), ring.volume);
+      key((name + "_neck").c_str(), ring.neck);
+      key((name + "_neck_law").c_str(), ring.law_neck);
+      key((name + "_suction").c_str(), ring.suction);
+      key((name + "_suction_law").c_str(), ring.law_suction);
+    }
+  }
 }
 
 // Hold after hold; a state behind each, a picture every 1000 steps.
@@ -60,7 +107,7 @@ int run(const support::throat_job& job) {
     search = experiment.restore(support::bytes_of(state), options, state.string());
     std::fprintf(stderr, "took up %s behind %u holds\n", state.string().c_str(), search.now().holds);
   }
-  support::throat_series series(job.out, search.now().steps);
+  support::throat_series series(job.out, "meniscus", search.now().steps);
   const std::uint64_t before = search.now().updates;
   while (search.running()) {
     const double value = search.next();
@@ -71,7 +118,7 @@ int run(const support::throat_job& job) {
     }
     std::fprintf(stderr, "p_c = %.5f: apex at %.3f r_in, %s\n", value, r.position / experiment.inscribed(),
                  describe(r.end));
-    if (r.end == lbm::hold_end::stable) {
+    if (lies_below(r.end)) {
       experiment.keep();
     } else {
       experiment.back();
@@ -80,6 +127,9 @@ int run(const support::throat_job& job) {
     support::write_bytes(state, experiment.save(search));
   }
   print(experiment, search, search.now().updates - before, watch.lap());
+  if (job.rings && search.now().end == lbm::search_end::converged) {
+    leave_rings<T>(job, 1.02 * search.now().upper);
+  }
   return verdict_of(search.now().end) == tp::verdict::ok ? 0 : 1;
 }
 

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -79,13 +78,8 @@ inline constexpr number_range loose{"a number above 0, at most 0.2", [](double x
   numbers.add("--cloud-steps", job.cloud.steps, many_steps, "time steps in half a period of a contact, cloud");
   numbers.add("--seed", job.cloud.seed, any_seed, "of the cloud");
   app.add_option("--out", out, "folder for the files")->capture_default_str();
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp&) {
-    std::fputs(app.help().c_str(), stdout);
+  if (!parsed(app, argc, argv)) {
     return std::nullopt;
-  } catch (const CLI::ParseError& e) {
-    throw tp::parameter_error("command line", e.what(), "options as --help lists them");
   }
   numbers.read();
 

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdio>
 #include <deque>
 #include <string>
 
@@ -14,6 +15,20 @@
 /// Options that are numbers: taken as text, so that all refusals name the option, the value and what it takes.
 
 namespace support {
+
+/// Parses a command line; false where only help was asked for, which is then printed.
+/// \throw tetrapore::parameter_error  what the app does not take
+[[nodiscard]] inline bool parsed(CLI::App& app, int argc, char** argv) {
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    std::fputs(app.help().c_str(), stdout);
+    return false;
+  } catch (const CLI::ParseError& e) {
+    throw tetrapore::parameter_error("command line", e.what(), "options as --help lists them");
+  }
+  return true;
+}
 
 /// What a number may be, in words and as a test.
 struct number_range {

@@ -42,13 +42,8 @@ class packing_options {
   /// printed.
   /// \throw tetrapore::parameter_error  names the option, what it was given and what it takes
   [[nodiscard]] bool read(int argc, char** argv, packing_job& job) const {
-    try {
-      app_.parse(argc, argv);
-    } catch (const CLI::CallForHelp&) {
-      std::fputs(app_.help().c_str(), stdout);
+    if (!parsed(app_, argc, argv)) {
       return false;
-    } catch (const CLI::ParseError& e) {
-      throw tp::parameter_error("command line", e.what(), "options as --help lists them");
     }
     job.path = packing_;
     if (app_.count("--periodic") > 0) {

@@ -26,12 +26,12 @@ namespace support {
 class throat_series {
  public:
   /// \param steps  pictures of up to as many stay in the series: those of a run that this one takes up
-  throat_series(std::filesystem::path folder, std::uint64_t steps)
-      : folder_(std::move(folder)), list_(folder_ / "meniscus.pvd") {
+  throat_series(std::filesystem::path folder, const std::string& name, std::uint64_t steps)
+      : folder_(std::move(folder)), name_(name + "_"), list_(folder_ / (name + ".pvd")) {
     std::vector<std::filesystem::path> earlier;
     for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
       const std::filesystem::path& file = entry.path();
-      if (file.extension() == ".vti" && steps_of(file) <= steps) {
+      if (file.extension() == ".vti" && file.stem().string().starts_with(name_) && steps_of(file) <= steps) {
         earlier.push_back(file);
       }
     }
@@ -55,8 +55,9 @@ class throat_series {
                       static_cast<std::size_t>(p[0]);
       difference[at] = static_cast<float>(rho[0] - rho[1]);
     }
-    char name[40];
-    std::snprintf(name, sizeof name, "meniscus_%09llu.vti", static_cast<unsigned long long>(steps));
+    char number[20];
+    std::snprintf(number, sizeof number, "%09llu.vti", static_cast<unsigned long long>(steps));
+    const std::string name = name_ + number;
     const double h = 1 / e.set_up().nodes_per_length;
     tetrapore::io::write_image(folder_ / name, {size, {0.5 * h, 0.5 * h, -e.throat().middle() * h}, h},
                                {{"density_difference", difference}});
@@ -71,6 +72,7 @@ class throat_series {
   }
 
   std::filesystem::path folder_;
+  std::string name_;
   tetrapore::io::pvd_series list_;
 };
 

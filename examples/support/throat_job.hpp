@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
@@ -27,6 +28,8 @@ struct throat_job {
   double resolution = 4;                ///< nodes per radius of the inscribed circle
   double retraction = 1.1;              ///< [nodes]
   double bracket = 0.03;                ///< width of the last bracket
+  std::size_t most_nodes = 1000000;     ///< fluid nodes that are allowed
+  bool rings = true;                    ///< go on until rings are left, and draw it
   bool in_double = false;
   std::filesystem::path out;
 };
@@ -49,6 +52,7 @@ struct throat_job {
   s.throat = throat_of(job);
   s.contact_angle = job.contact_angle * tetrapore::pi<double> / 180;
   s.retraction = job.retraction;
+  s.most_nodes = job.most_nodes;
   s.nodes_per_length = job.resolution / tetrapore::lbm::plane_entry_of(s.throat, s.sides, s.contact_angle).inscribed;
   return s;
 }
@@ -77,21 +81,22 @@ struct throat_job {
               "nodes by which grains shrink: room for the film");
   numbers.add("--bracket", job.bracket, {"a number from 0.001 to 0.5", [](double x) { return x >= 0.001 && x <= 0.5; }},
               "width of the last bracket, relative");
+  numbers.add("--most-nodes", job.most_nodes,
+              {"a whole number from 1000 to 1e8", [](double x) { return x >= 1000 && x <= 1e8 && x == std::floor(x); }},
+              "fluid nodes that are allowed");
+  bool no_rings = false;
+  app.add_flag("--no-rings", no_rings, "stop at the entry pressure: no rings, no picture");
   app.add_option("--precision", precision, "float or double")->capture_default_str();
   app.add_option("--out", out, "folder for the files; a state in it is taken up")->capture_default_str();
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp&) {
-    std::fputs(app.help().c_str(), stdout);
+  if (!parsed(app, argc, argv)) {
     return std::nullopt;
-  } catch (const CLI::ParseError& e) {
-    throw tetrapore::parameter_error("command line", e.what(), "options as --help lists them");
   }
   numbers.read();
   for (std::size_t k = 0; k < 3; ++k) {
     job.radii[k] = number_of("--radii", radii[k], above_zero.accepts, above_zero.expected);
     job.gaps[k] = number_of("--gaps", gaps[k], zero_or_more.accepts, zero_or_more.expected);
   }
+  job.rings = !no_rings;
   job.in_double = choice_of("--precision", precision, {"float", "double"}) == "double";
   job.out = folder_of("--out", out);
   return job;
