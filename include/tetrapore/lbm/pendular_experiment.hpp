@@ -19,7 +19,7 @@ struct pendular_set_up {
   double gap = 0;            ///< between them, in radii
   double volume = 0.05;      ///< of the liquid to start from, in radii³
   double contact_angle = 0;  ///< [rad]
-  double retraction = 1;     ///< nodes by which grains shrink: room for the film, or where the wall acts
+  double retraction = 1.5;   ///< nodes by which grains shrink: 1.5 leave room for a film, 0.5 is right where θ > 0
   int margin = 10;           ///< nodes beyond the bridge
   rest_options rest{1000, 3e-4, 3, 60000};
 };
@@ -33,11 +33,8 @@ struct pendular_result {
   double neck = 0;       ///< radius of the neck
   double law_force = 0;  ///< at the suction
   double law_volume = 0;
-  double law_suction = 0;      ///< at the force
-  double tension = 0;          ///< σ at these densities
-  double wettest_gas = 0;      ///< (ρ1 − ρ0)/(main − dissolved) in the corner that is farthest from the liquid
-  double driest = 0;           ///< the same at the driest node beside a grain: below 0 where it is dry
-  double net_force_ratio = 0;  ///< force / law_force
+  double tension = 0;  ///< σ at these densities
+  double dry = 0;      ///< share of the grains' outer nodes that have no neighbour in which liquid outweighs gas
   rest_report rest;
   bridge_status law = bridge_status::ok;
 };
@@ -95,8 +92,6 @@ template <class Forcing = velocity_shift, std::floating_point T = float>
     throw parameter_error("bridge", "a gap of " + short_number(2 * half_gap) + " nodes", "one with a node in it");
   }
   const auto middle = static_cast<std::size_t>(map.node_at(inner, inner, 0));
-  const double step = o.mixture.main - o.mixture.dissolved;
-  double wettest = 0;
   double mean_main = o.mixture.main;
   const auto look = [&]() -> double {
     const auto gas = s.densities_at(corner);
@@ -137,7 +132,6 @@ template <class Forcing = velocity_shift, std::floating_point T = float>
     b.suction = (outside - model.pressure(liquid)) * o.radius / b.tension;
     b.force = 4 * pull / (b.tension * o.radius);
     b.neck = std::sqrt(4 * disc / pi<double>) / o.radius;
-    wettest = (gas[1] - gas[0]) / step;
     return b.force;
   };
   // walls repel both components and films hold some of one: what is laid is shifted until the bulk has the densities
@@ -160,28 +154,40 @@ template <class Forcing = velocity_shift, std::floating_point T = float>
   if (b.rest.end != hold_end::stable) {
     return b;
   }
-  b.wettest_gas = wettest;
-  b.driest = 1;
   const auto gas = s.densities_at(corner);
   const auto liquid = s.densities_at(middle);
   for (std::size_t n = 0; n < map.size(); ++n) {
     const auto here = s.densities_at(n);
     b.volume += (gas[0] - gas[1] - here[0] + here[1]) / (gas[0] - gas[1] - liquid[0] + liquid[1]);
-    for (int k = 1; k < static_cast<int>(Model::directions); ++k) {
-      const auto seen = map.seen(n, k);
-      if (seen.node < 0 && seen.image < 0) {
-        b.driest = std::min(b.driest, (here[1] - here[0]) / step);
-        break;
+  }
+  double outer = 0;
+  for (int x = 0; x < side; ++x) {
+    for (int y = 0; y < side; ++y) {
+      for (int z = 0; z < height; ++z) {
+        bool beside = false;
+        bool wet = false;
+        for (std::size_t i = 1; i < Model::directions && solid(x, y, z); ++i) {
+          const std::array<int, 3> p{x + L::velocity[i][0], y + L::velocity[i][1], z + L::velocity[i][2]};
+          const bool inside = p[0] >= 0 && p[0] < side && p[1] >= 0 && p[1] < side && p[2] >= 0 && p[2] < height;
+          const auto n = inside ? map.node_at(p[0], p[1], p[2]) : site_map<L>::none;
+          if (n != site_map<L>::none) {
+            const auto here = s.densities_at(static_cast<std::size_t>(n));
+            beside = true;
+            wet = wet || here[1] > here[0];
+          }
+        }
+        outer += beside ? 1 : 0;
+        b.dry += beside && !wet ? 1 : 0;
       }
     }
   }
+  b.dry /= outer;
   b.volume *= 8 / (o.radius * o.radius * o.radius);
   const auto same_suction = law.bridge(pair, given_suction<double>{b.suction});
   b.law = same_suction.reason;
   if (same_suction.ok()) {
     b.law_force = same_suction.value.force;
     b.law_volume = same_suction.value.volume;
-    b.net_force_ratio = b.force / b.law_force;
   }
   return b;
 }
