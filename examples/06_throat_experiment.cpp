@@ -79,7 +79,7 @@ void leave_rings(const support::throat_job& job, double capillary) {
   }
   support::write_png(job.out / "meniscus.png", panels.draw());
   const support::key_printer key;
-  std::printf("rings_end=%s\n", r.end == lbm::hold_end::passed ? "gas on both sides" : describe(r.end));
+  std::printf("rings_end=%s\n", describe(r.end));
   key("rings_steps", static_cast<std::size_t>(r.steps));
   for (const lbm::ring_report& ring : experiment.rings(capillary)) {
     const std::string name = "ring_" + std::to_string(ring.side + 1) + std::to_string((ring.side + 1) % 3 + 1);

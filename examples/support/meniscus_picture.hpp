@@ -12,7 +12,7 @@
 #include <vector>
 
 /// \file
-/// A picture of the gas on its way through a throat: the prism seen from outside and above, its side cut open; grains
+/// A picture of the gas on its way through a throat: the prism cut open along its axis and seen from above; grains
 /// grey, liquid blue, gas left out. One panel for each moment, side by side.
 
 namespace support {
@@ -36,6 +36,19 @@ class meniscus_picture {
       grains_[k] = {vec{g.centre.x, g.centre.y, t.middle()}, g.radius};
     }
     low_x_ = std::floor(low_x_);
+    double most = -1;  // the axis is where most room is between the grains
+    for (double i = low_x_; i < x; i += 0.5) {
+      for (double j = 0; j < y; j += 0.5) {
+        double room = t.in_prism({i, j}) ? x : -1;
+        for (const ball& g : grains_) {
+          room = std::min(room, std::hypot(i - g.centre.x, j - g.centre.y) - g.radius);
+        }
+        if (room > most) {
+          most = room;
+          axis_ = i;
+        }
+      }
+    }
     p.size = {static_cast<int>(x - low_x_) + 2, static_cast<int>(y) + 2, t.box().size[2]};
     for (int i = 0; i < p.size[0]; ++i) {
       for (int j = 0; j < p.size[1]; ++j) {
@@ -74,8 +87,8 @@ class meniscus_picture {
 
  private:
   static constexpr std::size_t width = 360;  ///< of a panel [pixels]
-  static constexpr double turn = 0.45;       ///< of the eye about the vertical [rad]
-  static constexpr double rise = 0.55;       ///< of the eye above the horizontal [rad]
+  static constexpr double turn = 1.95;       ///< of the eye about the vertical [rad]
+  static constexpr double rise = 0.40;       ///< of the eye above the horizontal [rad]
   static constexpr double outside = 9;       ///< in place of a difference of densities
 
   struct panel {
@@ -89,6 +102,9 @@ class meniscus_picture {
 
   /// The difference of densities between the nodes; `outside` beyond the prism.
   [[nodiscard]] double value(const panel& p, const vec& at) const noexcept {
+    if (at.x > axis_) {  // cut away
+      return outside;
+    }
     const double q[3] = {at.x - low_x_, at.y, at.z};
     int low[3];
     double share[3];
@@ -157,6 +173,7 @@ class meniscus_picture {
   std::vector<panel> panels_;
   std::array<ball, 3> grains_{};
   double low_x_ = 0;
+  double axis_ = 0;
 };
 
 }  // namespace support

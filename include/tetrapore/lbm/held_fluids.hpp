@@ -108,12 +108,6 @@ class held_fluids {
     set(densities(capillary).value);
   }
 
-  /// The lower reservoir becomes one of the gas, of the same p_c: what liquid is left keeps its suction.
-  void drain() {
-    drained_ = true;
-    set(densities(held_).value);
-  }
-
   void advance(std::uint64_t steps, hold_report& r) {
     sim_.run(steps);
     r.steps += steps;
@@ -247,7 +241,7 @@ class held_fluids {
   }
   void set(const reservoir_pair& rho) {
     sim_.set_reservoir(above_, rho.gas);
-    sim_.set_reservoir(below_tag_, drained_ ? rho.gas : rho.liquid);
+    sim_.set_reservoir(below_tag_, rho.liquid);
   }
   template <class Do>
   void for_each_population(Do apply) {
@@ -270,7 +264,6 @@ class held_fluids {
   std::vector<T> kept_;
   double kept_at_ = none;  ///< p_c of the kept state
   double held_ = none;     ///< p_c of the present one
-  bool drained_ = false;   ///< gas on both sides
 };
 
 }  // namespace lbm
