@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Campaign: bubbles, menisci and bridges at rest against the figures they are asked to show
+// (docs/campaigns/lattice_calibration.json). A measurement that its progress file has is not made again.
+#include "tetrapore/lbm/calibrate.hpp"
+#include "tetrapore/lbm/pendular_experiment.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+using namespace tetrapore;
+using namespace tetrapore::lbm;
+
+namespace {
+
+constexpr double degree = pi<double> / 180;
+
+/// Named rows of numbers, kept on disk as they come.
+class notebook {
+ public:
+  notebook() : folder_(TETRAPORE_CAMPAIGN_DIR), kept_(folder_ / "lattice_calibration.progress") {
+    std::filesystem::create_directories(folder_);
+    std::ifstream in(kept_);
+    for (std::string line; std::getline(in, line);) {
+      std::istringstream words(line);
+      std::string name;
+      words >> name;
+      std::vector<double>& row = rows_[name];
+      for (double x = 0; words >> x;) {
+        row.push_back(x);
+      }
+    }
+  }
+  template <class Measure>
+  std::vector<double> row(const std::string& name, Measure measure) {
+    if (!rows_.contains(name)) {
+      rows_[name] = measure();
+      std::ofstream out(kept_, std::ios::app);
+      out.precision(12);
+      out << name;
+      for (const double x : rows_[name]) {
+        out << ' ' << x;
+      }
+      out << '\n';
+    }
+    return rows_[name];
+  }
+  void finish() const {
+    std::ofstream out(folder_ / "lattice_calibration.json");
+    out << "{\n  \"command\": \"tests/run.sh --long long_lbm\"";
+    for (const auto& [name, row] : rows_) {
+      out << ",\n  \"" << name << "\": [";
+      for (std::size_t k = 0; k < row.size(); ++k) {
+        out << (k == 0 ? "" : ", ") << row[k];
+      }
+      out << "]";
+    }
+    out << "\n}\n";
+    out.close();
+    std::filesystem::remove(kept_);
+  }
+
+ private:
+  std::filesystem::path folder_;
+  std::filesystem::path kept_;
+  std::map<std::string, std::vector<double>> rows_;
+};
+
+std::string name_of(const char* what, double a, double b) {
+  char text[80];
+  std::snprintf(text, sizeof text, "%s_%g_%g", what, a, b);
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("bubbles, menisci and bridges at rest show the tensions, angles and forces that are asked of them") {
+  if (std::filesystem::exists(std::filesystem::path(TETRAPORE_CAMPAIGN_DIR) / "lattice_calibration.json")) {
+    MESSAGE("there already: lattice_calibration.json");
+    return;
+  }
+  notebook book;
+
+  // a bubble of R = 18 whose outer main density is the tabulated one, σ by the radius of its own component
+  struct tabulated {
+    double attraction, main, tension, width, dissolved, spurious;
+  };
+  for (const tabulated& t : {tabulated{1.4, 0.837, 0.0296, 4.1, 0.111, 9e-4},
+                             {1.6, 0.943, 0.0613, 3.3, 0.057, 3.6e-3},
+                             {1.8, 1.003, 0.0910, 2.9, 0.032, 7.6e-3},
+                             {2.0, 1.041, 0.1177, 2.5, 0.019, 1.3e-2},
+                             {2.4, 1.085, 0.1634, 2.1, 0.008, 2.5e-2}}) {
+    const auto b = book.row(name_of("bubble", t.attraction, 18), [&] {
+      const laplace_result r = laplace<>({.attraction = t.attraction,
+                                          .radius = 18,
+                                          .half_box = 34,
+                                          .main = t.main,
+                                          .where = main_of::outside,
+                                          .tension = t.tension});
+      REQUIRE(r.rest.end == hold_end::stable);
+      return std::vector<double>{r.tension_of_one, r.tension,    r.radius_of_one, r.radius,
+                                 r.width,          r.outside[0], r.spurious,      r.out_of_round};
+    });
+    CAPTURE(t.attraction);
+    // next to the critical point the dissolved component takes long to spread
+    CHECK(b[0] == doctest::Approx(t.tension).epsilon(t.attraction < 1.5 ? 0.02 : 0.01));
+    CHECK(std::abs(b[4] - t.width) < 0.3);  // along one axis, on which nodes lie as they lie
+    const auto flat = book.row(name_of("flat", t.attraction, t.main), [&] {
+      const flat_interface f = measure_flat_interface<>({.attraction = t.attraction, .main = t.main});
+      REQUIRE(f.rest.end == hold_end::stable);
+      return std::vector<double>{f.tension, f.dissolved, f.width, f.residual};
+    });
+    CHECK(std::abs(flat[2] - t.width) < 0.06);
+    CHECK(std::abs(b[5] - t.dissolved) < (t.attraction < 1.5 ? 3e-3 : 1.2e-3));
+    CHECK(b[6] == doctest::Approx(t.spurious).epsilon(0.1));
+  }
+
+  // the mean main density kept, and the radius that treats both components alike: σ hardly depends on R
+  for (const double radius : {7.7, 12.6, 18.0, 23.6}) {
+    const auto b = book.row(name_of("mean_bubble", 1.8, radius), [&] {
+      const laplace_result r = laplace<>(
+          {.radius = radius, .half_box = static_cast<int>(1.5 * radius) + 6, .main = 1.003, .tension = 0.087});
+      REQUIRE(r.rest.end == hold_end::stable);
+      return std::vector<double>{r.tension, r.radius};
+    });
+    CHECK(b[0] == doctest::Approx(0.0875).epsilon(0.01));
+  }
+
+  // angles between plates at twice the gap of the calibration
+  for (const forcing_kind forcing : {forcing_kind::velocity_shift, forcing_kind::guo}) {
+    const bool shift = forcing == forcing_kind::velocity_shift;
+    const calibrated_mixture m = calibrated(forcing, 1, shift ? 1.8 : 3.2).value;
+    for (const double angle : {0.0, 10.0, 20.0, 30.0, 35.0, 45.0, 55.0, 65.0, 75.0, 90.0}) {
+      const auto c = book.row(name_of(shift ? "angle" : "angle_guo", m.attraction, angle), [&] {
+        const double x = wettability(m, angle * degree);
+        const contact_result r = shift ? angle_of_wettability<velocity_shift>(m, x, angle * degree, 48)
+                                       : angle_of_wettability<guo>(m, x, angle * degree, 48);
+        CHECK((r.rest.end == hold_end::stable || angle == 0));  // a film grows slowly
+        return std::vector<double>{r.angle / degree, r.residual, r.driest};
+      });
+      CAPTURE(angle);
+      CHECK(std::abs(c[0] - angle) < (angle < 40 ? 3 : 1));
+      CHECK((angle > 0 || c[2] > 0));
+    }
+  }
+
+  // bridges against the law of Young and Laplace, finer and finer
+  const calibrated_mixture m = calibrated(forcing_kind::velocity_shift, 1, 1.8).value;
+  for (const double angle : {0.0, 40.0, 60.0}) {
+    for (const double radius : {16.0, 24.0, 32.0, 40.0}) {
+      const auto b = book.row(name_of("bridge", angle, radius), [&] {
+        const pendular_result r = pendular_bridge<>({.mixture = m,
+                                                     .radius = radius,
+                                                     .gap = 0.2,
+                                                     .volume = angle > 0 ? 0.4 : 0.3,
+                                                     .contact_angle = angle * degree,
+                                                     .retraction = angle > 0 ? 0.5 : 1.5});
+        REQUIRE(r.rest.end == hold_end::stable);
+        return std::vector<double>{r.suction, r.force, r.law_force, r.neck, r.volume, r.dry};
+      });
+      CAPTURE(angle);
+      CAPTURE(radius);
+      CHECK((radius < 24 || (angle == 60 && radius < 32) || std::abs(b[1] / b[2] - 1) < 0.05));
+      CHECK((angle > 0 || b[5] == 0));
+    }
+  }
+  book.finish();
+}
