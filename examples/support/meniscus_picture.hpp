@@ -135,7 +135,7 @@ class meniscus_picture {
 
   [[nodiscard]] rgb trace(const panel& p, vec at, const vec& into, double length) const {
     constexpr double step = 0.3;
-    const vec light = vec{-0.5, -0.6, 1.0} / norm(vec{-0.5, -0.6, 1.0});
+    const vec light = vec{0.7, -0.3, 0.8} / norm(vec{0.7, -0.3, 0.8});
     bool before = false;  // the last place was in the prism
     for (double way = 0; way < length; way += step, at = at + into * step) {
       const double here = value(p, at);

@@ -4,15 +4,15 @@
 # again, and gives it bad input and bad states; checks keys, files, messages and exit codes.
 source "$(dirname "$(realpath "${BASH_SOURCE[0]}")")/common.sh"
 
-keys="end last_hold entry_ratio_msp correction entry_ratio_msp_raw entry_ratio_best2d best2d_ratio_msp bracket \
+keys="end last_hold entry_ratio_msp correction discretisation entry_ratio_msp_raw entry_ratio_best2d best2d_ratio_msp bracket \
 measured_lower entry_pressure_lattice surface_tension_lattice inscribed_nodes retraction_nodes fluid_nodes holds steps \
 updates mlups seconds"
-coarse="--gaps 0.4 0.4 0.4 --resolution 2 --bracket 0.2"
+coarse="--gaps 0.4 0.4 0.4 --resolution 3 --bracket 0.05 --no-rings"
 
 every_run() {
   [ "$(value end)" = "the bracket is as narrow as asked" ] || fail "$title: end=$(value end)"
   [ "$(value updates)" = "$(($(value steps) * $(value fluid_nodes)))" ] || fail "$title: updates are not steps x nodes"
-  [ "$(ls out/*.vti | wc -l)" = "$(grep -c DataSet out/meniscus.pvd)" ] || fail "$title: meniscus.pvd lists other files"
+  [ "$(ls out/meniscus_*.vti | wc -l)" = "$(grep -c DataSet out/meniscus.pvd)" ] || fail "$title: meniscus.pvd lists other files"
   grep -aq 'Name="density_difference"' out/meniscus_000001000.vti || fail "$title: no density difference"
 }
 files="meniscus.pvd meniscus_000001000.vti meniscus_000002000.vti meniscus_000003000.vti meniscus_000004000.vti"
@@ -25,12 +25,28 @@ whole() {
 }
 whole $coarse
 runs "three equal spheres" $coarse
-expect inscribed_nodes "== 2"
+expect inscribed_nodes "== 3"
 expect best2d_ratio_msp "< 0.78"
 expect entry_ratio_msp_raw "> 0.4"
 expect entry_ratio_msp_raw "< 0.8"
+expect discretisation "== 0.05"
 bracket=$(value bracket)
 steps=$(value steps)
+
+every_line=$keys
+keys="$keys rings_end rings_steps"
+for side in 12 23 31; do
+  keys="$keys ring_$side ring_${side}_volume ring_${side}_neck ring_${side}_neck_law ring_${side}_suction \
+ring_${side}_suction_law"
+done
+whole --resolution 2 --bracket 0.1
+runs "rings that the gas leaves at three contacts" --resolution 2 --bracket 0.1
+[ "$(head -c 4 out/meniscus.png | tail -c 3)" = PNG ] || fail "$title: no picture"
+[ "$(ls out/rings_*.vti | wc -l)" = "$(grep -c DataSet out/rings.pvd)" ] || fail "$title: rings.pvd lists other files"
+expect ring_12_neck "> 0.2"
+expect ring_12_neck "< 0.5"
+keys=$every_line
+whole $coarse
 
 title="a finished state answers at once"
 "$binary" $coarse --out out >stdout 2>stderr || fail "$title: exit code $?"
@@ -56,12 +72,13 @@ title="no state"
 echo "nothing" >out/state.bin
 exits 2 "out/state.bin: found 8 bytes" $coarse --out out
 
-helps --radii --gaps --contact-angle --resolution --retraction --bracket --precision --out
+helps --radii --gaps --contact-angle --resolution --retraction --bracket --most-nodes --no-rings --precision --out
 refuses "two radii" "--radii" --radii 1 1
 refuses "radius" "--radii: found \"0\", expected a number above 0" --radii 1 0 1
 refuses "gap" "--gaps: found \"-1\"" --gaps 0 0 -1
 refuses "angle" "--contact-angle: found \"90\"" --contact-angle 90
 refuses "too coarse" "--resolution: found \"1\"" --resolution 1
+refuses "too many nodes" "at most 1000 fluid nodes: a coarser resolution or a higher limit" --most-nodes 1000
 refuses "precision" "--precision: found \"half\", expected one of float, double" --precision half
 refuses "unknown option" "surprise" --surprise
 report

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "tetrapore/core/error.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <concepts>
+#include <cstddef>
+#include <exception>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+/// \file
+/// Many experiments side by side: one per core, never one over several.
+
+namespace tetrapore::inline TETRAPORE_ABI {
+namespace lbm {
+
+/// Calls task(0), task(1), …, each once, on as many threads as asked: each takes the next task when it is done with its
+/// last, so that the long ones do well at the front. Tasks must not share what they write. What a task makes inside
+/// itself lies in the memory next to its core; so let it make its experiment there.
+/// Throws what the first task that failed has thrown, when all threads have stopped; no task begins behind a failure.
+/// \param threads  0: as many as the machine has cores
+template <class Task>
+  requires std::invocable<Task&, std::size_t>
+void farm(std::size_t tasks, Task task, std::size_t threads = 0) {
+  if (threads > 4096) {
+    throw parameter_error("farm", std::to_string(threads) + " threads", "at most 4096");
+  }
+  const std::size_t cores = std::max<std::size_t>(1, std::thread::hardware_concurrency());
+  const std::size_t workers = std::min(tasks, threads == 0 ? cores : threads);
+  std::atomic<std::size_t> next{0};
+  std::exception_ptr failure;
+  std::mutex failing;
+  const auto work = [&] {
+    for (std::size_t k = next++; k < tasks; k = next++) {
+      try {
+        task(k);
+      } catch (...) {
+        const std::lock_guard<std::mutex> lock(failing);
+        failure = failure ? failure : std::current_exception();
+        next = tasks;
+      }
+    }
+  };
+  std::vector<std::thread> others;
+  others.reserve(workers);
+  for (std::size_t k = 1; k < workers; ++k) {
+    others.emplace_back(work);
+  }
+  work();
+  for (std::thread& t : others) {
+    t.join();
+  }
+  if (failure) {
+    std::rethrow_exception(failure);
+  }
+}
+
+}  // namespace lbm
+}  // namespace tetrapore::inline TETRAPORE_ABI
