@@ -43,7 +43,7 @@ void print(const Experiment& e, const lbm::threshold_search& search, std::uint64
   key("entry_pressure_lattice", search.value());
   key("surface_tension_lattice", e.set_up().pair.surface_tension);
   key("inscribed_nodes", e.inscribed());
-  key("retraction_nodes", e.set_up().retraction);
+  key("retraction_nodes", e.retraction());
   key("fluid_nodes", e.fluid_nodes());
   key("holds", std::size_t{result.holds});
   key("steps", static_cast<std::size_t>(result.steps));

@@ -26,7 +26,7 @@ struct throat_job {
   std::array<double, 3> gaps{0, 0, 0};  ///< between surfaces: of grains 1 and 2, 2 and 3, 3 and 1
   double contact_angle = 0;             ///< [degrees]
   double resolution = 4;                ///< nodes per radius of the inscribed circle
-  double retraction = 1.1;              ///< [nodes]
+  std::optional<double> retraction;     ///< [nodes]; none: by the contact angle
   double bracket = 0.03;                ///< width of the last bracket
   std::size_t most_nodes = 1000000;     ///< fluid nodes that are allowed
   bool rings = true;                    ///< go on until rings are left, and draw it
@@ -64,6 +64,7 @@ struct throat_job {
   std::vector<std::string> radii{"1", "1", "1"};
   std::vector<std::string> gaps{"0", "0", "0"};
   std::string precision = "float";
+  std::string retraction = "auto";
   std::string out = "throat_experiment_out";
 
   CLI::App app("Entry pressure of a throat of three grains by a lattice Boltzmann experiment.", "throat_experiment");
@@ -76,9 +77,8 @@ struct throat_job {
   numbers.add("--resolution", job.resolution,
               {"a number from 2 to 40 [nodes]", [](double x) { return x >= 2 && x <= 40; }},
               "nodes per radius of the inscribed circle");
-  numbers.add("--retraction", job.retraction,
-              {"a number from 0 to 4 [nodes]", [](double x) { return x >= 0 && x <= 4; }},
-              "nodes by which grains shrink: room for the film");
+  app.add_option("--retraction", retraction, "nodes by which grains shrink: auto, or a number from 0 to 4")
+      ->capture_default_str();
   numbers.add("--bracket", job.bracket, {"a number from 0.001 to 0.5", [](double x) { return x >= 0.001 && x <= 0.5; }},
               "width of the last bracket, relative");
   numbers.add("--most-nodes", job.most_nodes,
@@ -95,6 +95,10 @@ struct throat_job {
   for (std::size_t k = 0; k < 3; ++k) {
     job.radii[k] = number_of("--radii", radii[k], above_zero.accepts, above_zero.expected);
     job.gaps[k] = number_of("--gaps", gaps[k], zero_or_more.accepts, zero_or_more.expected);
+  }
+  if (retraction != "auto") {
+    job.retraction = number_of(
+        "--retraction", retraction, [](double x) { return x >= 0 && x <= 4; }, "auto, or a number from 0 to 4 [nodes]");
   }
   job.rings = !no_rings;
   job.in_double = choice_of("--precision", precision, {"float", "double"}) == "double";

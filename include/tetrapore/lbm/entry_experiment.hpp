@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,24 +36,37 @@ inline constexpr calibrated_pair pair_18{1.8, 1.003, 1.99526, 0.5, 0.0877, 0.087
   return 1 + (0.12 + 0.6 / inscribed) / inscribed;
 }
 
-/// What is left of the error behind the correction, relative: the largest over throats that it was not calibrated on,
-/// equal spheres with gaps of 0.2 and 0.4 R against Surface Evolver, unequal ones against the least plane value.
-/// \par Accuracy  largest found: 5 % at r_in = 3 to 8.5 nodes, 10 % at 2
-[[nodiscard]] constexpr double entry_error(double inscribed) noexcept {
-  return inscribed < 3 ? 0.05 * 9 / (inscribed * inscribed) : 0.05;
+/// What is left of the error behind correction and retraction, relative: the largest over throats that they were not
+/// calibrated on, against Surface Evolver or, unequal grains, the least plane value.
+/// \par Units     θ [rad]
+/// \par Accuracy  θ = 0: largest found 5 % at r_in = 3 to 8.5 nodes, 10 % at 2 (gaps 0.2 and 0.4 R, two unequal throats).
+///                Above: −4.8 to +3.1 % at r_in = 4 (touching and gaps of 0.05 and 0.4 R at 40°, 0.2 R at 20° and
+///                60°), +2.5 % at r_in = 6. NaN between 0 and 20° and above 60°: not measured
+[[nodiscard]] constexpr double entry_error(double inscribed, double contact_angle = 0) noexcept {
+  if (contact_angle != 0 && !(contact_angle > 0.34 && contact_angle < 1.06)) {
+    return quiet_nan<double>;
+  }
+  const double coarse = contact_angle == 0 ? 3 : 4;
+  return inscribed < coarse ? 0.05 * coarse * coarse / (inscribed * inscribed) : 0.05;
 }
+
+/// Nodes by which grains shrink so that walls, and at θ = 0 the film on them, are where they should be.
+/// \par Accuracy  θ = 0: that of entry_correction and, in tubes without one, see tube_experiment.hpp; above 0 taken
+///                from equal spheres at θ = 40°, gap 0.2 R, r_in = 4 nodes; see entry_error
+[[nodiscard]] constexpr double entry_retraction(double contact_angle) noexcept { return contact_angle > 0 ? 0.5 : 1.1; }
 
 /// What an entry experiment is made of.
 /// \par Units  lattice units but where said
 struct entry_set_up {
   opening<double> throat;  ///< three discs, in any unit of length
   std::array<prism_side, 3> sides{};
-  double nodes_per_length = 1;  ///< nodes per unit of the throat
-  double retraction = 1.1;      ///< nodes by which grains shrink: room for the film
-  double clear = 0.7;           ///< how far the upper reservoir lies at most, in radii of the largest grain
-  double plug = 4;              ///< nodes that it keeps from the grains
-  double contact_angle = 0;     ///< [rad]
+  double nodes_per_length = 1;         ///< nodes per unit of the throat
+  std::optional<double> retraction{};  ///< nodes by which grains shrink; none: `entry_retraction` of the angle
+  double clear = 0.7;                  ///< how far the upper reservoir lies at most, in radii of the largest grain
+  double plug = 4;                     ///< nodes that it keeps from the grains
+  double contact_angle = 0;            ///< [rad]
   calibrated_pair pair = pair_18;
+  double tau = 1;          ///< relaxation time of both fluids, that of the pair
   double gas_share = 0.5;  ///< of p_c that raises the gas; the rest lowers the liquid
   bool halved = true;      ///< a throat that is its own mirror image is solved by one half
   bool fitted = true;      ///< radii shift so that the neck has as many nodes as it has volume
@@ -106,7 +120,7 @@ struct entry_result {
   double lower;  ///< the bracket of the search as it is, not corrected
   double upper;
   double correction;      ///< value = correction × middle of the bracket
-  double discretisation;  ///< relative error of the value that the lattice leaves, the bracket's not included
+  double discretisation;  ///< entry_error, the bracket's width not included; NaN where nothing is calibrated
   std::uint64_t steps;
   std::uint64_t updates;
   std::uint32_t holds;
@@ -128,7 +142,7 @@ class entry_experiment {
         plane_(plane_entry_of(s.throat, s.sides, s.contact_angle)),
         throat_(s.throat, s.sides, resolution()),
         fluids_({s.pair.attraction, s.pair.factor, s.pair.common, s.pair.main}, s.gas_share,
-                throat_.template sites<d3q19>(), throat_.middle(), reservoir_above, reservoir_below) {
+                throat_.template sites<d3q19>(), throat_.middle(), reservoir_above, reservoir_below, s.tau) {
     if (!(s.rules.still > 0) || !(s.rules.still_mass > 0) || s.rules.most_steps < 1000 || !(s.patience > 0)) {
       throw parameter_error("hold", "no motion that counts as rest, or fewer than 1000 steps", "more");
     }
@@ -155,10 +169,13 @@ class entry_experiment {
     return per_tension * set_up_.pair.surface_tension / set_up_.nodes_per_length;
   }
 
+  /// Nodes by which the grains shrank.
+  [[nodiscard]] double retraction() const noexcept {
+    return set_up_.retraction.value_or(entry_retraction(set_up_.contact_angle));
+  }
   /// By what the middle of a bracket is multiplied: 1 where nothing is calibrated.
   [[nodiscard]] double correction() const noexcept {
-    return set_up_.contact_angle == 0 && set_up_.retraction == entry_set_up{}.retraction ? entry_correction(inscribed())
-                                                                                         : 1;
+    return set_up_.contact_angle == 0 && !set_up_.retraction ? entry_correction(inscribed()) : 1;
   }
 
   /// A bracket as narrow as asked where the entry pressure is expected, `factor` × the least plane value less the
@@ -211,7 +228,7 @@ class entry_experiment {
             m.lower / unit,
             m.upper / unit,
             correction(),
-            entry_error(inscribed()),
+            set_up_.retraction ? quiet_nan<double> : entry_error(inscribed(), set_up_.contact_angle),
             m.steps,
             m.updates,
             m.holds,
@@ -249,7 +266,7 @@ class entry_experiment {
     const double above = std::min(set_up_.clear * largest, 1.25 * std::sqrt(2 * largest * plane_.inscribed));
     throat_resolution r;
     r.nodes_per_length = set_up_.nodes_per_length;
-    r.retraction = set_up_.retraction;
+    r.retraction = retraction();
     r.above = std::max(above * set_up_.nodes_per_length, inscribed() + 6);
     r.below = 2.2 * inscribed() + 5;
     r.plug = set_up_.plug;
@@ -307,9 +324,9 @@ class entry_experiment {
     }
     const calibrated_pair& p = set_up_.pair;
     const hold_rules& rules = set_up_.rules;
-    for (const double x : {set_up_.nodes_per_length, set_up_.retraction, set_up_.clear, set_up_.plug,
-                           set_up_.contact_angle, set_up_.gas_share, set_up_.patience, rules.still, rules.still_mass,
-                           rules.flow, p.attraction, p.factor, p.common, p.main, p.surface_tension}) {
+    for (const double x : {set_up_.nodes_per_length, retraction(), set_up_.clear, set_up_.plug, set_up_.contact_angle,
+                           set_up_.gas_share, set_up_.tau, set_up_.patience, rules.still, rules.still_mass, rules.flow,
+                           p.attraction, p.factor, p.common, p.main, p.surface_tension}) {
       h.add(x);
     }
     return h.add(rules.ramp).add(rules.most_steps).add(std::uint64_t{rules.foresee}).value();

@@ -54,13 +54,13 @@ class held_fluids {
 
   /// \param middle  z of what positions are counted from
   held_fluids(const coexistence& pair, double gas_share, site_map<lattice_type> map, double middle, std::uint8_t above,
-              std::uint8_t below)
+              std::uint8_t below, double tau = 1)
       : pair_(pair),
         gas_share_(gas_share),
         middle_(middle),
         above_(above),
         below_tag_(below),
-        sim_(model_of(pair), std::move(map)) {
+        sim_(model_of(pair, tau), std::move(map)) {
     const auto& nodes = sim_.sites();
     below_.resize(nodes.size());
     for (std::size_t n = 0; n < nodes.size(); ++n) {
@@ -233,8 +233,9 @@ class held_fluids {
  private:
   static constexpr double none = -std::numeric_limits<double>::max();
 
-  [[nodiscard]] static Model model_of(const coexistence& pair) noexcept {
+  [[nodiscard]] static Model model_of(const coexistence& pair, double tau) noexcept {
     Model m;
+    m.collisions[0].tau = m.collisions[1].tau = tau;
     m.attraction = {{{0, pair.attraction}, {pair.attraction, 0}}};
     m.reference = {1, 1};
     return m;

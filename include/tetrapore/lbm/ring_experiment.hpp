@@ -150,7 +150,7 @@ class ring_experiment {
     }
     throat_resolution r;
     r.nodes_per_length = set_up_.nodes_per_length;
-    r.retraction = set_up_.retraction;
+    r.retraction = set_up_.retraction.value_or(entry_retraction(set_up_.contact_angle));
     r.above = r.below = depth * largest * set_up_.nodes_per_length;
     r.plug = set_up_.plug;
     r.halved = set_up_.halved;
