@@ -108,34 +108,6 @@ template <class R>
   return (x + anchor) - anchor;
 }
 
-/// What leaves a node whose collision ends at the equilibrium, as few numbers: any direction follows from them, to the
-/// same bits wherever it is worked out.
-template <lattice L, class R>
-struct outgoing {
-  static constexpr std::size_t numbers = 3 + static_cast<std::size_t>(L::dimensions);
-  R at[numbers];  ///< what stays, flat, 3 ρ, u
-
-  [[gnu::always_inline]] explicit outgoing(const relaxation_target<R>& t) noexcept {
-    const equilibrium<L, R> eq(t);
-    at[1] = eq.flat;
-    at[2] = constant<R>(3) * t.rho;
-    repeat<L::dimensions>([&]<int A>(number<A>) TETRAPORE_INLINE { at[3 + A] = t.velocity[A]; });
-    at[0] = t.excess - sum_over_pairs<L, R>([]<int K>(number<K>) TETRAPORE_INLINE { return true; },
-                                            [&]<int K>(number<K>) TETRAPORE_INLINE {
-                                              const R cu = along_pair<L, K>(t.velocity);
-                                              return in_direction(constant<R>(pair_weight<K, L>), at[1], at[2], cu) +
-                                                     in_direction(constant<R>(pair_weight<K, L>), at[1], at[2], -cu);
-                                            });
-  }
-  /// What leaves in a direction, of a weight and a velocity along it.
-  [[nodiscard, gnu::always_inline]] static R in_direction(const R& weight, const R& flat, const R& triple_rho,
-                                                          const R& cu) noexcept {
-    const R odd = triple_rho * cu;
-    const R all = flat + odd * (R(1) + constant<R>(1.5) * cu);
-    return on_grid(weight * all);
-  }
-};
-
 /// Rounds what leaves a node to the grid and gives the rest population what is left of the sum. With a density within 1
 /// of its reference no mass is lost to rounding, in float neither: a rounding error at rest would repeat itself.
 template <lattice L, class R>
@@ -146,6 +118,21 @@ template <lattice L, class R>
                                          constexpr int i = 2 * K + 1;
                                          return f[i] + f[i + 1];
                                        });
+}
+
+/// All but the rest population of an equilibrium.
+template <lattice L, class R>
+[[gnu::always_inline]] inline void fill_pairs(const relaxation_target<R>& t, R (&f)[L::directions]) noexcept {
+  const equilibrium<L, R> eq(t);
+  repeat<pairs<L>>([&]<int K>(number<K>) TETRAPORE_INLINE {
+    constexpr int i = 2 * K + 1;
+    const R w = constant<R>(pair_weight<K, L>);
+    R even;
+    R odd;
+    eq.template of_pair<K>(even, odd);
+    f[i] = w * (even + odd);
+    f[i + 1] = w * (even - odd);
+  });
 }
 
 /// Both halves of each pair by a rate of their own.

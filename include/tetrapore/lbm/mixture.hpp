@@ -93,8 +93,7 @@ struct mixture {
   }
 
   /// The same where the collision ends at the equilibrium, from the moments of what streamed in: `moment(c, 0)` is the
-  /// excess of density of component c, `moment(c, 1 + axis)` its momentum; `give(c, k, x)` gets the numbers of
-  /// detail::outgoing.
+  /// excess of density of component c, `moment(c, 1 + axis)` its momentum.
   template <class R, class Moment, class Seen, class Give>
   [[gnu::always_inline]] void depart(Moment moment, Seen seen, Give give) const noexcept {
     node_motion<R, Components> m;
@@ -114,31 +113,18 @@ struct mixture {
       t.excess = excess[C];
       t.rho = m.rho[C];
       detail::repeat<axes>([&]<int A>(detail::number<A>) TETRAPORE_INLINE { t.velocity[A] = u[C][A]; });
-      const detail::outgoing<Lattice, R> o(t);
-      detail::repeat<3 + axes>([&]<int K>(detail::number<K> k) TETRAPORE_INLINE { give(c, k, o.at[K]); });
+      R f[directions];
+      detail::fill_pairs<Lattice>(t, f);
+      detail::settle<Lattice>(f, t.excess);
+      detail::repeat<sites>([&]<int I>(detail::number<I> i) TETRAPORE_INLINE { give(c, i, f[I]); });
     });
   }
-  /// The moments of what streams into a node: `from(c, i, k)` is number k of the node that direction i comes from.
-  template <class R, class From, class Give>
-  [[gnu::always_inline]] static void arrive(From from, Give give) noexcept {
-    using out = detail::outgoing<Lattice, R>;
+  /// The moments of what streams into a node, as above.
+  template <class R, class Take, class Give>
+  [[gnu::always_inline]] static void arrive(Take take, Give give) noexcept {
     detail::repeat<count>([&]<int C>(detail::number<C> c) TETRAPORE_INLINE {
       R f[directions];
-      f[0] = from(c, detail::number<0>{}, detail::number<0>{});
-      detail::repeat<sites - 1>([&]<int J>(detail::number<J>) TETRAPORE_INLINE {
-        constexpr int i = J + 1;
-        constexpr int pair = J / 2;
-        R u[3];
-        detail::repeat<axes>([&]<int A>(detail::number<A>) TETRAPORE_INLINE {
-          if constexpr (detail::along<Lattice>(pair, A) != 0) {
-            u[A] = from(c, detail::number<i>{}, detail::number<3 + A>{});
-          }
-        });
-        const R cu = detail::along_pair<Lattice, pair>(u);
-        f[i] = out::in_direction(detail::constant<R>(detail::pair_weight<pair, Lattice>),
-                                 from(c, detail::number<i>{}, detail::number<1>{}),
-                                 from(c, detail::number<i>{}, detail::number<2>{}), J % 2 == 0 ? cu : -cu);
-      });
+      detail::repeat<sites>([&]<int I>(detail::number<I> i) TETRAPORE_INLINE { f[I] = take(c, i); });
       give(c, detail::number<0>{}, excess_of(f));
       detail::repeat<axes>([&]<int A>(detail::number<A>) TETRAPORE_INLINE {
         give(c, detail::number<1 + A>{}, detail::first_moment<Lattice, A>(f));
@@ -174,16 +160,7 @@ struct mixture {
   /// The populations of an equilibrium.
   template <class R>
   [[gnu::always_inline]] static void fill(const relaxation_target<R>& t, R (&f)[directions]) noexcept {
-    const detail::equilibrium<Lattice, R> eq(t);
-    detail::repeat<pairs<Lattice>>([&]<int K>(detail::number<K>) TETRAPORE_INLINE {
-      constexpr int i = 2 * K + 1;
-      const R w = detail::constant<R>(detail::pair_weight<K, Lattice>);
-      R even;
-      R odd;
-      eq.template of_pair<K>(even, odd);
-      f[i] = w * (even + odd);
-      f[i + 1] = w * (even - odd);
-    });
+    detail::fill_pairs<Lattice>(t, f);
     const R half = detail::constant<R>(0.5);
     const R excess = detail::on_grid(t.excess * half * half);
     detail::settle<Lattice>(f, (excess + excess) + (excess + excess));

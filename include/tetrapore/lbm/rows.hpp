@@ -44,20 +44,15 @@ class row_layout {
   struct neighbours {
     places to;
     offsets seen;
-    std::uint32_t turned;  ///< a bit for each direction that a face of the box turns round
+    std::array<std::uint8_t, directions> as;  ///< the direction as a face of the box turns it
     friend bool operator<(const neighbours& a, const neighbours& b) noexcept {
-      return std::tie(a.to, a.seen, a.turned) < std::tie(b.to, b.seen, b.turned);
+      return std::tie(a.to, a.seen, a.as) < std::tie(b.to, b.seen, b.as);
     }
   };
   /// What a node sends to a cell that is no node, and where it belongs.
   struct link {
     std::uint32_t cell;
     std::uint32_t gate;
-  };
-  /// A node and a direction in which no neighbour is, or none that gets what leaves as it is.
-  struct detour {
-    std::int32_t node;
-    std::uint8_t direction;
   };
   /// A cell that shows the ψ of another.
   struct copy {
@@ -77,16 +72,17 @@ class row_layout {
   struct plane {
     std::size_t first_run, last_run;
     std::size_t first_link, last_link;
-    std::size_t first_detour, last_detour;
     std::size_t first_copy, last_copy;
-    std::int32_t first_cell, last_cell;
+    std::int32_t first_cell, last_cell;  ///< the first one or, so that it is a multiple, cells before it
   };
 
   row_layout() = default;
   /// \param lanes  so many cells beyond a run may be read and written as they were
   /// \param through_reservoirs  whether runs lead through nodes of reservoirs
-  row_layout(const site_map<L>& map, std::size_t lanes, std::size_t per_cache_line, bool through_reservoirs)
-      : map_(&map), lanes_(lanes), through_(through_reservoirs) {
+  /// \param aligned  the first nodes of rows stand at multiples of this
+  row_layout(const site_map<L>& map, std::size_t lanes, std::size_t per_cache_line, bool through_reservoirs,
+             std::size_t aligned)
+      : map_(&map), lanes_(lanes), through_(through_reservoirs), aligned_(aligned) {
     along_ = map.box().size[2] == 1 ? 1 : 2;
     across_ = 3 - along_;
     length_ = static_cast<std::size_t>(map.box().size[along_]) + 2;
@@ -124,7 +120,6 @@ class row_layout {
   [[nodiscard]] const std::vector<run>& runs() const noexcept { return runs_; }
   [[nodiscard]] const std::vector<neighbours>& tables() const noexcept { return tables_; }
   [[nodiscard]] const std::vector<link>& links() const noexcept { return links_; }
-  [[nodiscard]] const std::vector<detour>& detours() const noexcept { return detours_; }
   [[nodiscard]] const std::vector<copy>& copies() const noexcept { return copies_; }
   [[nodiscard]] const std::vector<wall>& walls() const noexcept { return walls_; }
   [[nodiscard]] const std::vector<image>& images() const noexcept { return images_; }
@@ -192,9 +187,20 @@ class row_layout {
 
   /// Lines of 64 bytes between the slots of a cell are 27 + a multiple of 64: no two slots share a set of the cache.
   void number_cells(std::size_t per_line) {
+    for (std::size_t n = 0; n < map_->size(); ++n) {
+      const auto& p = map_->place(n);
+      at(row_of(p), p[along_]) = 1;
+    }
     std::size_t next = 0;
     for (std::size_t k = 0; k < at_.size(); ++k) {
       if (at_[k] != none) {
+        if (k % length_ == 0 || at_[k - 1] == none) {
+          std::size_t before = 0;  // cells before the first node
+          while (at_[k + before] == 0 && (k + before + 1) % length_ != 0) {
+            ++before;
+          }
+          next += (aligned_ - (next + before) % aligned_) % aligned_;
+        }
         at_[k] = static_cast<std::int32_t>(next++);
       }
     }
@@ -213,7 +219,8 @@ class row_layout {
   }
 
   void add_plane(std::size_t x) {
-    plane p{runs_.size(), 0, links_.size(), 0, detours_.size(), 0, 0, 0, cell_of_row(x), cell_of_row(x + 1)};
+    const auto align = static_cast<std::int32_t>(aligned_);
+    plane p{runs_.size(), 0, links_.size(), 0, 0, 0, cell_of_row(x) / align * align, cell_of_row(x + 1)};
     const auto end = static_cast<std::size_t>(map_->plane_begin(x + 1));
     for (auto n = static_cast<std::size_t>(map_->plane_begin(x)); n < end;) {
       if (!belongs(n)) {
@@ -229,7 +236,6 @@ class row_layout {
     }
     p.last_run = runs_.size();
     p.last_link = links_.size();
-    p.last_detour = detours_.size();
     planes_.push_back(p);
   }
   /// The first cell at or behind the beginning of a plane.
@@ -260,15 +266,11 @@ class row_layout {
       const auto d = static_cast<std::size_t>(k);
       by.to[d] = static_cast<std::int64_t>(place(there, slot(b.as))) - static_cast<std::int64_t>(place(cell, 0));
       by.seen[d] = b.wall ? face() - cell : there - cell;
-      by.turned |= b.as != k ? 1U << d : 0U;
+      by.as[d] = static_cast<std::uint8_t>(b.as);
       for (std::size_t n = first; n < last && k != 0; ++n) {
         const auto virtual_cell = there + static_cast<std::int32_t>(n - first);
         const std::size_t virtual_place = place(virtual_cell, slot(b.as));
-        const auto to = map_->leaving(n, k);
-        const std::size_t really = gate(to);
-        if (b.as != k || to.as != k || cells_[static_cast<std::size_t>(to.to)] != virtual_cell) {
-          detours_.push_back({static_cast<std::int32_t>(n), static_cast<std::uint8_t>(k)});
-        }
+        const std::size_t really = gate(map_->leaving(n, k));
         if (really != virtual_place) {
           links_.push_back({static_cast<std::uint32_t>(virtual_place), static_cast<std::uint32_t>(really)});
         }
@@ -317,6 +319,7 @@ class row_layout {
   const site_map<L>* map_ = nullptr;  ///< while the layout is made
   std::size_t lanes_ = 0;
   bool through_ = false;
+  std::size_t aligned_ = 1;
   std::size_t along_ = 2;   ///< the axis of rows
   std::size_t across_ = 1;  ///< the other one of a plane
   std::size_t length_ = 0;  ///< of a row, its two ends beyond the box included
@@ -331,7 +334,6 @@ class row_layout {
   std::vector<run> runs_;
   std::vector<neighbours> tables_;
   std::vector<link> links_;
-  std::vector<detour> detours_;
   std::vector<copy> copies_;
   std::vector<wall> walls_;
   std::vector<image> images_;

@@ -41,7 +41,7 @@ class simulation : public detail::surroundings<Model, T, Lanes, Storage == stora
   using typename base::lattice_type;
 
   /// All nodes at the mixture's reference densities, at rest; walls and reservoirs show them too.
-  simulation(const Model& model, site_map<lattice_type> map) : base(model, std::move(map), false) {
+  simulation(const Model& model, site_map<lattice_type> map) : base(model, std::move(map), false, 1) {
     f_.assign(components * directions * rows_.stride() + beyond, T(0));
     if constexpr (Storage == storage::two_lattices) {
       next_.assign(f_.size(), T(0));

@@ -110,8 +110,8 @@ class surroundings {
     std::size_t needs;  ///< how many planes must show their ψ before this one is updated
   };
 
-  surroundings(const Model& model, site_map<lattice_type> map, bool through_reservoirs)
-      : model_(model), map_(std::move(map)), rows_(map_, width, per_line, through_reservoirs) {
+  surroundings(const Model& model, site_map<lattice_type> map, bool through_reservoirs, std::size_t aligned)
+      : model_(model), map_(std::move(map)), rows_(map_, width, per_line, through_reservoirs, aligned) {
     for (const auto& c : model_.collisions) {
       if (!(c.tau > 0.5)) {
         throw parameter_error("collision", "tau = " + short_number(c.tau), "more than 0.5");
