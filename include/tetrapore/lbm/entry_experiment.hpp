@@ -39,7 +39,7 @@ inline constexpr calibrated_pair pair_18{1.8, 1.003, 1.99526, 0.5, 0.0877, 0.087
 /// What is left of the error behind correction and retraction, relative: the largest over throats that they were not
 /// calibrated on, against Surface Evolver or, unequal grains, the least plane value.
 /// \par Units     θ [rad]
-/// \par Accuracy  θ = 0: largest found 5 % at r_in = 3 to 8.5 nodes, 10 % at 2 (gaps 0.2 and 0.4 R, two unequal throats).
+/// \par Accuracy  θ = 0: largest found 5 % at r_in = 3 to 8.5 nodes, 10 % at 2 (gaps 0.2 and 0.4 R, unequal grains).
 ///                Above: −4.8 to +3.1 % at r_in = 4 (touching and gaps of 0.05 and 0.4 R at 40°, 0.2 R at 20° and
 ///                60°), +2.5 % at r_in = 6. NaN between 0 and 20° and above 60°: not measured
 [[nodiscard]] constexpr double entry_error(double inscribed, double contact_angle = 0) noexcept {

@@ -53,9 +53,9 @@ class ring_experiment {
   [[nodiscard]] const throat_on_lattice& throat() const noexcept { return throat_; }
   [[nodiscard]] const simulation_type& fluids() const noexcept { return fluids_.simulation_of(); }
 
-  /// Holds a p_c above the entry pressure until the gas has reached the bottom, where the liquid's reservoir stands like
-  /// a plate that lets liquid alone through, and then until what is left of the liquid changes by less than 1 % in 1000
-  /// steps. `watch(report so far)` is called every 100 steps. The report's end is `passed` where all went so.
+  /// Holds a p_c above the entry pressure until the gas has reached the bottom, where the liquid's reservoir stands
+  /// like a plate that lets liquid alone through, and then until what is left of the liquid changes by less than 1 % in
+  /// 1000 steps. `watch(report so far)` is called every 100 steps. The report's end is `passed` where all went so.
   template <class Watch>
     requires std::invocable<Watch&, const hold_report&>
   [[nodiscard]] hold_report drain(double capillary, Watch watch) {

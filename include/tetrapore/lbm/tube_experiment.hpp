@@ -95,9 +95,10 @@ class tube_experiment {
           // a way that the second half of the time has its share in: corners that drain move the apex at first
           const double way = s.apex - apex[settled];
           const double half = s.apex - apex[(settled + apex.size()) / 2];
-          return std::abs(way) < 0.5 || half<0.4 * way == way> 0 ? hold_end::step_limit
-                 : way > 0                                       ? hold_end::withdrew
-                                                                 : hold_end::passed;
+          if (std::abs(way) < 0.5 || half / way < 0.4) {
+            return hold_end::step_limit;
+          }
+          return way > 0 ? hold_end::withdrew : hold_end::passed;
         },
         [](const hold_report&) {});
     return r;
