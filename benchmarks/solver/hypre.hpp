@@ -120,7 +120,7 @@ class hypre_solver {
  private:
   [[nodiscard]] static tetrapore::solve_report status(bool well) {
     tetrapore::solve_report report;
-    report.status = well ? tetrapore::solve_status::ok : tetrapore::solve_status::not_converged;
+    report.reason = well ? tetrapore::solve_status::ok : tetrapore::solve_status::not_converged;
     return report;
   }
   [[nodiscard]] HYPRE_IJVector vector() const {
