@@ -124,6 +124,18 @@ void calibrate_angles(calibration_run& r) {
   }
 }
 
+/// Small angles feel the plates' distance most: 10° is set right in a gap twice as wide.
+template <class Forcing>
+void refine_small_angle(calibration_run& r) {
+  std::array<double, 9>& x = r.mixture.wettability;
+  const double angle = calibrated_angles[1] * pi<double> / 180;
+  const double slope = (std::cos(angle) - std::cos(calibrated_angles[2] * pi<double> / 180)) / (x[1] - x[2]);
+  const contact_result c = angle_of_wettability<Forcing>(r.mixture, x[1], angle, 48);
+  r.updates += c.rest.updates;
+  r.end = c.rest.end;
+  x[1] = std::min(x[1] + (std::cos(angle) - c.cosine) / slope, x[0]);
+}
+
 /// All of a row.
 template <class Forcing>
 [[nodiscard]] calibration_run calibrate(double attraction, double tau, double main) {
@@ -133,6 +145,9 @@ template <class Forcing>
   }
   if (r.end == hold_end::stable) {
     calibrate_angles<Forcing>(r);
+  }
+  if (r.end == hold_end::stable) {
+    refine_small_angle<Forcing>(r);
   }
   return r;
 }

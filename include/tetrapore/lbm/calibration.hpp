@@ -66,6 +66,7 @@ namespace detail {
 
 /// The measured mixture of a forcing scheme, τ and G; between rows of the same scheme and τ linear in G.
 /// \par Units     lattice units
+/// \par Accuracy  flat interfaces: the digits of the table. Between rows 0.5 % of σ at τ = 1
 [[nodiscard]] constexpr outcome<calibrated_mixture, calibration_status> calibrated(forcing_kind forcing, double tau,
                                                                                    double attraction) noexcept {
   const auto near = [](double a, double b) { return (a > b ? a - b : b - a) <= 1e-9; };
@@ -93,7 +94,9 @@ namespace detail {
 
 /// The surface tension of a curved interface whose phases have a mean main density: half the sum of the gas's and the
 /// liquid's own. Radius in nodes of the surface on which both components weigh the same; infinite: flat.
-/// \par Units  lattice units
+/// \par Units     lattice units
+/// \par Accuracy  0.3 % of bubbles of 8 to 24 nodes at G = 1.8, τ = 1, velocity shift; 0.75 % more than a flat
+///                interface across an axis there, by the anisotropy of the lattice
 [[nodiscard]] inline double surface_tension(const calibrated_mixture& m, double mean_main,
                                             double radius = infinity<double>) noexcept {
   return m.bubble_tension * std::pow(mean_main / m.main, m.density_exponent) * (1 + m.curvature / radius);
@@ -101,8 +104,9 @@ namespace detail {
 
 /// The wettability of `wall_of_wettability` that makes a contact angle, linear in its cosine between those measured.
 /// At 0 it is 1, the liquid itself, so that a film covers every wall.
-/// \par Units   θ [rad]
-/// \par Domain  0 ≤ θ ≤ π
+/// \par Units     θ [rad]
+/// \par Domain    0 ≤ θ ≤ π
+/// \par Accuracy  between plates at twice the distance of the calibration 3° below 40° and 0.4° from there on
 [[nodiscard]] inline double wettability(const calibrated_mixture& m, double contact_angle) {
   if (!(contact_angle >= 0 && contact_angle <= pi<double>)) {
     throw parameter_error("contact angle", short_number(contact_angle) + " rad", "0 to pi");
