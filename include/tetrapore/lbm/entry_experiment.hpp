@@ -116,7 +116,7 @@ struct plane_entry {
 
 /// What an entry experiment found. \par Units  of the throat: pressures per surface tension, 1/length
 struct entry_result {
-  double value;  ///< entry pressure, corrected where a correction is calibrated
+  double value;  ///< entry pressure, corrected where it can be; NaN where the search has not converged
   double lower;  ///< the bracket of the search as it is, not corrected
   double upper;
   double correction;      ///< value = correction × middle of the bracket
@@ -224,7 +224,8 @@ class entry_experiment {
   [[nodiscard]] entry_result result(const threshold_search& search) const noexcept {
     const auto& m = search.now();
     const double unit = lattice_pressure(1);
-    return {correction() * search.value() / unit,
+    const double middle = m.end == search_end::converged ? search.value() : quiet_nan<double>;
+    return {correction() * middle / unit,
             m.lower / unit,
             m.upper / unit,
             correction(),
