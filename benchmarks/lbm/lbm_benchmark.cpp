@@ -2,13 +2,14 @@
 //
 // Steps of a two-component fluid (d3q19, BGK, velocity shift) on periodic boxes and in a throat of about 45,000 nodes;
 // items are updates of a fluid node, both components. `error` is the relative drift of the mass of a component; in the
-// throat, which reservoirs feed, the worst difference to the two-lattice reference after ten steps. `failed` counts
+// throat, which reservoirs feed, the worst difference to the two-lattice reference after ten steps, of densities. `failed` counts
 // nodes whose density is no number.
 //
-// Roofline: an update reads and writes each population once. `of_roofline` is the share that this traffic has in what
+// Roofline: an update reads and writes each number that is kept of a node once. `of_roofline` is the share that this traffic has in what
 // the machine reads and writes in place on an array of the same size, measured beside the row; the rows `bandwidth_…`
 // show that and a plain copy. Boxes that fit in the cache are measured against the cache.
 
+#include "tetrapore/lbm/moments.hpp"
 #include "tetrapore/lbm/simulation.hpp"
 #include "tetrapore/lbm/throat.hpp"
 
@@ -71,7 +72,10 @@ void fill(Simulation& s) {
   });
 }
 
-constexpr std::size_t numbers_of(std::size_t nodes) { return nodes * fluid::components * fluid::directions; }
+/// Numbers that are kept of so many nodes; moments with ψ.
+constexpr std::size_t numbers_of(std::size_t nodes, storage kept = storage::in_place) {
+  return nodes * fluid::components * (kept == storage::moments ? 5 : fluid::directions);
+}
 
 /// x becomes 1 − x, again and again.
 template <class T>
@@ -98,10 +102,10 @@ double in_place_bandwidth(std::size_t count) {
   return best;
 }
 
-/// The worst difference of two storages after ten steps from the same state.
-template <class T>
+/// The worst difference of densities from those of the plain reference after ten steps from the same state.
+template <class T, storage Storage>
 double difference_to_reference() {
-  simulation<fluid, T, storage::in_place> one(repelling(), throat());
+  simulation<fluid, T, Storage> one(repelling(), throat());
   simulation<fluid, T, storage::two_lattices> two(repelling(), throat());
   fill(one);
   fill(two);
@@ -110,9 +114,7 @@ double difference_to_reference() {
   double worst = 0;
   for (std::size_t n = 0; n < one.sites().size(); ++n) {
     for (std::size_t c = 0; c < fluid::components; ++c) {
-      for (std::size_t i = 0; i < fluid::directions; ++i) {
-        worst = std::max(worst, std::abs(static_cast<double>(one.population(c, n, i) - two.population(c, n, i))));
-      }
+      worst = std::max(worst, std::abs(one.density(c, n) - two.density(c, n)));
     }
   }
   return worst;
@@ -134,12 +136,12 @@ void steps(benchmark::State& state) {
   for (std::size_t n = 0; n < nodes; ++n) {
     failed += std::isfinite(s.density(0, n) + s.density(1, n)) ? 0U : 1U;
   }
-  state.counters["error"] = closed ? std::abs(s.mass(0) / before - 1) : difference_to_reference<T>();
+  state.counters["error"] = closed ? std::abs(s.mass(0) / before - 1) : difference_to_reference<T, Storage>();
   state.counters["failed"] = static_cast<double>(failed);
   state.counters["nodes"] = static_cast<double>(nodes);
-  const double traffic = 2.0 * sizeof(T) * static_cast<double>(numbers_of(1));
-  state.counters["of_roofline"] =
-      benchmark::Counter(updates * traffic / in_place_bandwidth<T>(numbers_of(nodes)), benchmark::Counter::kIsRate);
+  const double traffic = 2.0 * sizeof(T) * static_cast<double>(numbers_of(1, Storage));
+  state.counters["of_roofline"] = benchmark::Counter(
+      updates * traffic / in_place_bandwidth<T>(numbers_of(nodes, Storage)), benchmark::Counter::kIsRate);
 }
 
 template <class T>
@@ -169,14 +171,20 @@ void bandwidth_copy(benchmark::State& state) {
 
 BENCHMARK_TEMPLATE(steps, double, storage::in_place, box)->Unit(benchmark::kMillisecond);
 BENCHMARK_TEMPLATE(steps, float, storage::in_place, box)->Unit(benchmark::kMillisecond);
+BENCHMARK_TEMPLATE(steps, double, storage::moments, box)->Unit(benchmark::kMillisecond);
+BENCHMARK_TEMPLATE(steps, float, storage::moments, box)->Unit(benchmark::kMillisecond);
 BENCHMARK_TEMPLATE(steps, double, storage::two_lattices, box)->Unit(benchmark::kMillisecond);
 BENCHMARK_TEMPLATE(steps, float, storage::two_lattices, box)->Unit(benchmark::kMillisecond);
 BENCHMARK_TEMPLATE(steps, double, storage::in_place, throat)->Unit(benchmark::kMillisecond);
 BENCHMARK_TEMPLATE(steps, float, storage::in_place, throat)->Unit(benchmark::kMillisecond);
+BENCHMARK_TEMPLATE(steps, double, storage::moments, throat)->Unit(benchmark::kMillisecond);
+BENCHMARK_TEMPLATE(steps, float, storage::moments, throat)->Unit(benchmark::kMillisecond);
 BENCHMARK_TEMPLATE(steps, double, storage::two_lattices, throat)->Unit(benchmark::kMillisecond);
 BENCHMARK_TEMPLATE(steps, float, storage::two_lattices, throat)->Unit(benchmark::kMillisecond);
 BENCHMARK_TEMPLATE(steps, double, storage::in_place, large_box)->Unit(benchmark::kMillisecond);
 BENCHMARK_TEMPLATE(steps, float, storage::in_place, large_box)->Unit(benchmark::kMillisecond);
+BENCHMARK_TEMPLATE(steps, double, storage::moments, large_box)->Unit(benchmark::kMillisecond);
+BENCHMARK_TEMPLATE(steps, float, storage::moments, large_box)->Unit(benchmark::kMillisecond);
 BENCHMARK(bandwidth_in_place<double>)->Arg(32 * 32 * 32)->Arg(45000)->Arg(128 * 128 * 128);
 BENCHMARK(bandwidth_in_place<float>)->Arg(32 * 32 * 32)->Arg(45000)->Arg(128 * 128 * 128);
 BENCHMARK(bandwidth_copy<double>)->Arg(32 * 32 * 32)->Arg(45000)->Arg(128 * 128 * 128);

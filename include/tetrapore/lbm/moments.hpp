@@ -55,6 +55,11 @@ class simulation<Model, T, storage::moments, Lanes> : public detail::surrounding
     for (const auto& l : rows_.links()) {
       links_.push_back({buffered(l.cell), buffered(l.gate)});
     }
+    for (std::size_t x = 0; x < map_.plane_count(); ++x) {
+      for (std::size_t r = rows_.planes()[x].first_run; r < rows_.planes()[x].last_run; ++r) {
+        senders_.push_back(senders_of(x, rows_.runs()[r]));
+      }
+    }
     make_held();
   }
 
@@ -173,6 +178,7 @@ class simulation<Model, T, storage::moments, Lanes> : public detail::surrounding
     std::size_t used;
     std::uint8_t tag;
   };
+  using senders = std::array<std::uint32_t, directions>;
   /// What arrives from a cell that is no node, and where it has left.
   struct link {
     std::uint32_t cell;
@@ -201,6 +207,30 @@ class simulation<Model, T, storage::moments, Lanes> : public detail::surrounding
     }
     return static_cast<std::uint32_t>(slot * sent_step_ + buffer_of(x) +
                                       static_cast<std::size_t>(cell - rows_.planes()[x].first_cell));
+  }
+
+  /// Where what arrives at the first node of a run of plane x in each direction has left.
+  [[nodiscard]] senders senders_of(std::size_t x, const run_type& run) const noexcept {
+    const auto& by = rows_.tables()[static_cast<std::size_t>(run.table)];
+    const auto planes = static_cast<int>(map_.plane_count());
+    const bool wrap = map_.box().low[0] == face_kind::periodic;
+    senders from{};
+    for (std::size_t k = 0; k < directions; ++k) {
+      const auto offset = static_cast<std::ptrdiff_t>(by.to[k]) -
+                          static_cast<std::ptrdiff_t>(by.as[k] * rows_.stride());  // of the cell in direction k
+      int there = static_cast<int>(x);
+      if (const int next = there + lattice_type::velocity[k][0]; offset != 0 && next >= 0 && next < planes) {
+        there = next;
+      } else if (offset != 0 && wrap) {
+        there = (next + planes) % planes;
+      }
+      const auto plane = static_cast<std::size_t>(there);
+      const auto slot = static_cast<std::size_t>(opposite(by.as[k]));
+      from[static_cast<std::size_t>(opposite(static_cast<int>(k)))] =
+          static_cast<std::uint32_t>(static_cast<std::ptrdiff_t>(slot * sent_step_ + buffer_of(plane)) + run.cell +
+                                     offset - rows_.planes()[plane].first_cell);
+    }
+    return from;
   }
 
   void make_held() {
@@ -328,27 +358,6 @@ class simulation<Model, T, storage::moments, Lanes> : public detail::surrounding
     }
   }
 
-  /// Where what arrives at the first node of a run in each direction has left.
-  void find_senders(std::size_t x, const run_type& run, const T* (&from)[directions]) const noexcept {
-    const auto& by = rows_.tables()[static_cast<std::size_t>(run.table)];
-    const auto planes = static_cast<int>(map_.plane_count());
-    const bool wrap = map_.box().low[0] == face_kind::periodic;
-    for (std::size_t k = 0; k < directions; ++k) {
-      const auto offset = static_cast<std::ptrdiff_t>(by.to[k]) -
-                          static_cast<std::ptrdiff_t>(by.as[k] * rows_.stride());  // of the cell in direction k
-      int there = static_cast<int>(x);
-      if (const int next = there + lattice_type::velocity[k][0]; offset != 0 && next >= 0 && next < planes) {
-        there = next;
-      } else if (offset != 0 && wrap) {
-        there = (next + planes) % planes;
-      }
-      const auto plane = static_cast<std::size_t>(there);
-      const auto slot = static_cast<std::size_t>(opposite(by.as[k]));
-      from[static_cast<std::size_t>(opposite(static_cast<int>(k)))] =
-          sent_.data() + slot * sent_step_ + buffer_of(plane) + (run.cell + offset - rows_.planes()[plane].first_cell);
-    }
-  }
-
   /// The moments of what arrives in a plane, and ψ.
   void receive(std::size_t x) {
     const auto& p = rows_.planes()[x];
@@ -363,7 +372,9 @@ class simulation<Model, T, storage::moments, Lanes> : public detail::surrounding
     for (std::size_t r = p.first_run; r < p.last_run; ++r) {
       const run_type& run = rows_.runs()[r];
       const T* from[directions];
-      find_senders(x, run, from);
+      for (std::size_t i = 0; i < directions; ++i) {
+        from[i] = sent_.data() + senders_[r][i];
+      }
       T* const to = state_.data() + run.cell;
       const auto all = [&](std::ptrdiff_t n, auto give) TETRAPORE_INLINE {
         Model::template arrive<number>(
@@ -416,6 +427,7 @@ class simulation<Model, T, storage::moments, Lanes> : public detail::surrounding
   std::size_t sent_step_ = 0;
   detail::aligned_vector<T> state_;  ///< moments of all cells, one behind the other, component by component
   detail::aligned_vector<T> sent_;   ///< populations that have left the planes in use, likewise
+  std::vector<senders> senders_;     ///< of each run
   std::vector<link> links_;
   std::vector<held_batch> held_;
   std::vector<std::size_t> held_of_;  ///< where the batches of each plane begin
