@@ -154,13 +154,15 @@ TEST_CASE("bubbles, menisci and bridges at rest show the tensions, angles and fo
 
   // bridges against the law of Young and Laplace, finer and finer
   const calibrated_mixture m = calibrated(forcing_kind::velocity_shift, 1, 1.8).value;
-  for (const double angle : {0.0, 40.0, 60.0}) {
+  for (const double angle : {0.0, 20.0, 40.0}) {
     for (const double radius : {16.0, 24.0, 32.0, 40.0}) {
       const auto b = book.row(name_of("bridge", angle, radius), [&] {
         const pendular_result r = pendular_bridge<>({.mixture = m,
                                                      .radius = radius,
                                                      .gap = 0.2,
-                                                     .volume = angle > 0 ? 0.4 : 0.3,
+                                                     .volume = angle > 20  ? 0.4
+                                                               : angle > 0 ? 0.35
+                                                                           : 0.3,
                                                      .contact_angle = angle * degree,
                                                      .retraction = angle > 0 ? 0.5 : 1.5});
         REQUIRE(r.rest.end == hold_end::stable);
@@ -168,7 +170,7 @@ TEST_CASE("bubbles, menisci and bridges at rest show the tensions, angles and fo
       });
       CAPTURE(angle);
       CAPTURE(radius);
-      CHECK((radius < 24 || (angle == 60 && radius < 32) || std::abs(b[1] / b[2] - 1) < 0.05));
+      CHECK(std::abs(b[1] / b[2] - 1) < (radius < 24 ? 0.15 : 0.05));
       CHECK((angle > 0 || b[5] == 0));
     }
   }

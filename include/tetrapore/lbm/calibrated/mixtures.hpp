@@ -8,6 +8,7 @@
 namespace tetrapore::inline TETRAPORE_ABI {
 namespace lbm {
 
+// clang-format off
 /// Mixtures that were measured; `calibration.hpp` says to what accuracy.
 inline constexpr calibrated_mixture calibrated_mixtures[] = {
     {forcing_kind::velocity_shift, 1, 1.4, 1.00000, 0.07509, 1.99944, 3.48, 0.05261, 3.26, 0.05342, -0.21, 2.2e-03,
@@ -39,6 +40,7 @@ inline constexpr calibrated_mixture calibrated_mixtures[] = {
     {forcing_kind::guo, 0.7, 3.2, 1.00000, 0.04153, 1.03727, 3.61, 0.05597, 3.19, 0.05597, -0.01, 2.3e-03,
      {0.8717, 0.8672, 0.8128, 0.7469, 0.6615, 0.5586, 0.4382, 0.3018, 0.1528}},
 };
+// clang-format on
 
 }  // namespace lbm
 }  // namespace tetrapore::inline TETRAPORE_ABI
