@@ -2,12 +2,12 @@
 //
 // Steps of a two-component fluid (d3q19, BGK, velocity shift) on periodic boxes and in a throat of about 45,000 nodes;
 // items are updates of a fluid node, both components. `error` is the relative drift of the mass of a component; in the
-// throat, which reservoirs feed, the worst difference to the two-lattice reference after ten steps, of densities. `failed` counts
-// nodes whose density is no number.
+// throat, which reservoirs feed, the worst difference of densities to the two-lattice reference after ten steps.
+// `failed` counts nodes whose density is no number.
 //
-// Roofline: an update reads and writes each number that is kept of a node once. `of_roofline` is the share that this traffic has in what
-// the machine reads and writes in place on an array of the same size, measured beside the row; the rows `bandwidth_…`
-// show that and a plain copy. Boxes that fit in the cache are measured against the cache.
+// Roofline: an update reads and writes each number that is kept of a node once. `of_roofline` is the share that this
+// traffic has in what the machine reads and writes in place on an array of the same size, measured beside the row; the
+// rows `bandwidth_…` show that and a plain copy. Boxes that fit in the cache are measured against the cache.
 
 #include "tetrapore/lbm/moments.hpp"
 #include "tetrapore/lbm/simulation.hpp"
