@@ -2,6 +2,7 @@
 #pragma once
 
 #include "support/grains.hpp"
+#include "support/number_options.hpp"
 #include "support/options.hpp"
 
 #include <CLI/CLI.hpp>
