@@ -16,6 +16,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 /// \file
@@ -136,7 +137,8 @@ class entry_experiment {
  public:
   using simulation_type = simulation<Model, T>;
 
-  /// Throws parameter_error for a throat that no law covers, that the lattice does not resolve or has no room for.
+  /// Throws parameter_error for a throat that no law covers, that the lattice does not resolve or has no room for, and
+  /// for a pair that the table of measured mixtures contradicts.
   explicit entry_experiment(const entry_set_up& s)
       : set_up_(s),
         plane_(plane_entry_of(s.throat, s.sides, s.contact_angle)),
@@ -146,6 +148,7 @@ class entry_experiment {
     if (!(s.rules.still > 0) || !(s.rules.still_mass > 0) || s.rules.most_steps < 1000 || !(s.patience > 0)) {
       throw parameter_error("hold", "no motion that counts as rest, or fewer than 1000 steps", "more");
     }
+    check_pair();
     if (!(inscribed() >= 2)) {
       throw parameter_error("throat", "an inscribed circle of " + short_number(inscribed()) + " nodes",
                             "a radius of 2 or more: films and interfaces are as wide");
@@ -275,6 +278,22 @@ class entry_experiment {
     r.fitted = set_up_.fitted;
     r.most_nodes = set_up_.most_nodes;
     return r;
+  }
+
+  /// A pair of the table of measured mixtures has the factor and the tension of the table.
+  void check_pair() const {
+    if constexpr (std::is_same_v<decltype(Model::forcing), velocity_shift>) {
+      const auto known = calibrated(forcing_kind::velocity_shift, set_up_.tau, set_up_.pair.attraction);
+      const auto differs = [](double a, double b) { return std::abs(a - b) > 0.02 * std::abs(b); };
+      if (known.ok() && (differs(set_up_.pair.factor, known.value.factor) ||
+                         differs(set_up_.pair.surface_tension, surface_tension(known.value, set_up_.pair.main)))) {
+        throw parameter_error("mixture",
+                              "c = " + short_number(set_up_.pair.factor) +
+                                  ", surface tension = " + short_number(set_up_.pair.surface_tension),
+                              short_number(known.value.factor) + ", " +
+                                  short_number(surface_tension(known.value, set_up_.pair.main)) + " as measured");
+      }
+    }
   }
 
   /// The column of nodes that is furthest from the grains.

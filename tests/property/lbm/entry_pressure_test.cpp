@@ -36,4 +36,7 @@ TEST_CASE("reservoirs of densities that do not belong together are named") {
   entry_experiment<float> none(s);
   CHECK(none.hold(none.lattice_pressure(none.plane().best)).end == hold_end::dissolved);
   CHECK(std::isnan(entry_error(4, 0.2)));
+  entry_set_up wrong = equal_spheres(0.4, 4);
+  wrong.pair.factor = 1.9;  // 1.995 was measured
+  CHECK_THROWS_AS(entry_experiment<float>{wrong}, parameter_error);
 }
