@@ -178,7 +178,7 @@ class entry_experiment {
   }
   /// By what the middle of a bracket is multiplied: 1 where nothing is calibrated.
   [[nodiscard]] double correction() const noexcept {
-    return set_up_.contact_angle == 0 && !set_up_.retraction ? entry_correction(inscribed()) : 1;
+    return set_up_.contact_angle == 0 && covered() ? entry_correction(inscribed()) : 1;
   }
 
   /// A bracket as narrow as asked where the entry pressure is expected, `factor` × the least plane value less the
@@ -232,7 +232,7 @@ class entry_experiment {
             m.lower / unit,
             m.upper / unit,
             correction(),
-            set_up_.retraction ? quiet_nan<double> : entry_error(inscribed(), set_up_.contact_angle),
+            covered() ? entry_error(inscribed(), set_up_.contact_angle) : quiet_nan<double>,
             m.steps,
             m.updates,
             m.holds,
@@ -278,6 +278,11 @@ class entry_experiment {
     r.fitted = set_up_.fitted;
     r.most_nodes = set_up_.most_nodes;
     return r;
+  }
+
+  /// Correction and error were measured with the pair of G = 1.8, τ = 1 and the retraction of entry_retraction.
+  [[nodiscard]] bool covered() const noexcept {
+    return !set_up_.retraction && set_up_.tau == 1 && set_up_.pair.attraction == pair_18.attraction;
   }
 
   /// A pair of the table of measured mixtures has the factor and the tension of the table.
