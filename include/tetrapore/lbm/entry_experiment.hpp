@@ -40,15 +40,16 @@ inline constexpr calibrated_pair pair_18{1.8, 1.003, 1.99526, 0.5, 0.0877, 0.087
 /// What is left of the error behind correction and retraction, relative: the largest over throats that they were not
 /// calibrated on, against Surface Evolver or, unequal grains, the least plane value.
 /// \par Units     θ [rad]
-/// \par Accuracy  θ = 0: largest found 5 % at r_in = 3 to 8.5 nodes, 10 % at 2 (gaps 0.2 and 0.4 R, unequal grains).
+/// \par Accuracy  θ = 0 (gaps 0.2 and 0.4 R, unequal grains): largest found 4 % from r_in = 4 to 8.5 nodes, 6 % at 3,
+///                14 % at 2 to 2.5.
 ///                Above: −4.8 to +3.1 % at r_in = 4 (touching and gaps of 0.05 and 0.4 R at 40°, 0.2 R at 20° and
 ///                60°), +2.5 % at r_in = 6. NaN between 0 and 20° and above 60°: not measured
 [[nodiscard]] constexpr double entry_error(double inscribed, double contact_angle = 0) noexcept {
   if (contact_angle != 0 && !(contact_angle > 0.34 && contact_angle < 1.06)) {
     return quiet_nan<double>;
   }
-  const double coarse = contact_angle == 0 ? 3 : 4;
-  return inscribed < coarse ? 0.05 * coarse * coarse / (inscribed * inscribed) : 0.05;
+  constexpr double fine = 4;  // nodes
+  return inscribed < fine ? 0.05 * fine * fine / (inscribed * inscribed) : 0.05;
 }
 
 /// Nodes by which grains shrink so that walls, and at θ = 0 the film on them, are where they should be.

@@ -8,7 +8,6 @@
 
 #include <doctest/doctest.h>
 
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -31,54 +30,34 @@ struct placed {  // one lattice: nodes along the box, where the spheres lie on i
   double permeability;
 };
 
-/// Least squares of k = limit (1 + a/n + b/n²); also the standard error of the limit.
+/// Least squares of k = limit (1 + slope / n); also the standard error of the limit.
 struct fitted {
-  double limit, slope, bend, error;
+  double limit, slope, error;
 };
 
 fitted fit(const std::vector<placed>& all) {
-  constexpr std::size_t m = 3;
-  std::array<std::array<double, 2 * m>, m> a{};  // the normal equations, and beside them what becomes their inverse
-  std::array<double, m> b{};
-  const auto row = [](const placed& p) { return std::array{1.0, 1.0 / p.nodes, 1.0 / (1.0 * p.nodes * p.nodes)}; };
+  const auto count = static_cast<double>(all.size());
+  double x_mean = 0;
+  double k_mean = 0;
   for (const placed& p : all) {
-    const auto x = row(p);
-    for (std::size_t i = 0; i < m; ++i) {
-      for (std::size_t j = 0; j < m; ++j) {
-        a[i][j] += x[i] * x[j];
-      }
-      b[i] += x[i] * p.permeability;
-    }
+    x_mean += 1.0 / p.nodes / count;
+    k_mean += p.permeability / count;
   }
-  for (std::size_t i = 0; i < m; ++i) {
-    a[i][m + i] = 1;
+  double xx = 0;
+  double xk = 0;
+  for (const placed& p : all) {
+    const double x = 1.0 / p.nodes - x_mean;
+    xx += x * x;
+    xk += x * (p.permeability - k_mean);
   }
-  for (std::size_t k = 0; k < m; ++k) {  // Gauss-Jordan: the matrix is positive definite
-    const double pivot = a[k][k];
-    for (double& v : a[k]) {
-      v /= pivot;
-    }
-    for (std::size_t i = 0; i < m; ++i) {
-      const double share = i == k ? 0 : a[i][k];
-      for (std::size_t j = 0; j < 2 * m; ++j) {
-        a[i][j] -= share * a[k][j];
-      }
-    }
-  }
-  std::array<double, m> c{};
-  for (std::size_t i = 0; i < m; ++i) {
-    for (std::size_t j = 0; j < m; ++j) {
-      c[i] += a[i][m + j] * b[j];
-    }
-  }
+  const double slope = xk / xx;
+  const double limit = k_mean - slope * x_mean;
   double squares = 0;
   for (const placed& p : all) {
-    const auto x = row(p);
-    const double off = p.permeability - c[0] * x[0] - c[1] * x[1] - c[2] * x[2];
+    const double off = p.permeability - limit - slope / p.nodes;
     squares += off * off;
   }
-  const double variance = squares / static_cast<double>(all.size() - m);
-  return {c[0], c[1] / c[0], c[2] / c[0], std::sqrt(variance * a[0][m])};
+  return {limit, slope / limit, std::sqrt(squares / (count - 2) * (1 / count + x_mean * x_mean / xx))};
 }
 
 /// Runs what is missing of a case and writes its file. \param within  of the reference, that the limit has to be
@@ -120,8 +99,7 @@ void campaign(const std::string& name, const periodic_spheres& spheres,
   std::ofstream(path) << "{\n  \"command\": \"tests/run.sh --long long_lbm\",\n  \"reference\": " << reference
                       << ",\n  \"limit\": " << f.limit << ",\n  \"limit_error\": " << f.limit / reference - 1
                       << ",\n  \"standard_error\": " << f.error / reference << ",\n  \"first_order\": " << f.slope
-                      << ",\n  \"second_order\": " << f.bend << ",\n  \"nodes, offset, permeability, error\": ["
-                      << rows.str() << "\n  ]\n}\n";
+                      << ",\n  \"nodes, offset, permeability, error\": [" << rows.str() << "\n  ]\n}\n";
   std::filesystem::remove(kept);
   MESSAGE(name << ": limit " << f.limit / reference - 1 << " ± " << f.error / reference);
 }
@@ -130,7 +108,7 @@ void campaign(const std::string& name, const periodic_spheres& spheres,
 
 TEST_CASE("simple cubic spheres, extrapolated, have the permeability of Zick and Homsy within 1 %") {
   std::vector<std::pair<int, double>> lattices;
-  for (const int nodes : {32, 36, 40, 44, 48, 52, 56, 60, 64, 72, 80}) {
+  for (const int nodes : {40, 44, 48, 52, 56, 60, 64, 72, 80}) {
     lattices.insert(lattices.end(), {{nodes, 0.0}, {nodes, 0.3}});
   }
   for (const auto& [name, fraction, drag] :
@@ -157,7 +135,5 @@ TEST_CASE(
     }
   }
   REQUIRE(p.spheres.size() == 64);
-  campaign("random", p,
-           {{36, 0.0}, {42, 0.0}, {48, 0.0}, {54, 0.0}, {60, 0.0}, {66, 0.0}, {72, 0.0}, {84, 0.0}, {96, 0.0}}, 7.33e-5,
-           0.015);
+  campaign("random", p, {{48, 0.0}, {54, 0.0}, {60, 0.0}, {66, 0.0}, {72, 0.0}, {84, 0.0}, {96, 0.0}}, 7.33e-5, 0.015);
 }
