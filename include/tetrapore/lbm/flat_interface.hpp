@@ -79,7 +79,7 @@ template <class Model>
 /// \par Source    momentum balance of a step, derived here; bonds as in Shan, Phys. Rev. E 77, 066702 (2008)
 template <class Model = mixture<d2q9, bgk>>
 [[nodiscard]] flat_interface measure_flat_interface(const flat_set_up& o) {
-  using L = typename Model::lattice_type;
+  using stencil = typename Model::lattice_type;
   if (o.nodes < 16 || !(o.main > 0) || !(o.tolerance > 0)) {
     throw parameter_error("flat interface", std::to_string(o.nodes) + " nodes, main density " + short_number(o.main),
                           "16 nodes or more, a density and a tolerance above 0");
@@ -93,9 +93,9 @@ template <class Model = mixture<d2q9, bgk>>
   const auto normal_stress = [&](std::size_t y) {  // between y and y + 1
     double p = 0;
     for (std::size_t i = 0; i < Model::directions; ++i) {
-      const int across = L::velocity[i][1];
+      const int across = stencil::velocity[i][1];
       for (std::size_t c = 0; across != 0 && c < 2; ++c) {
-        p += static_cast<double>(s.population(c, across > 0 ? y + 1 : y, i)) + L::weight[i] * model.reference[c];
+        p += static_cast<double>(s.population(c, across > 0 ? y + 1 : y, i)) + stencil::weight[i] * model.reference[c];
       }
     }
     return p;
@@ -148,9 +148,9 @@ template <class Model = mixture<d2q9, bgk>>
     profile[y] = s.density(0, y);
     const auto here = potentials(y);
     for (std::size_t i = 0; i < Model::directions; ++i) {
-      const auto& v = L::velocity[i];
+      const auto& v = stencil::velocity[i];
       for (std::size_t c = 0; v[0] != 0 && c < 2; ++c) {
-        along += static_cast<double>(s.population(c, y, i)) + L::weight[i] * model.reference[c];
+        along += static_cast<double>(s.population(c, y, i)) + stencil::weight[i] * model.reference[c];
       }
       if (v[0] > 0) {
         along += detail::bond(model, i, here,
@@ -160,7 +160,7 @@ template <class Model = mixture<d2q9, bgk>>
     if (y + 1 < size) {
       double p = normal_stress(y);
       for (std::size_t i = 0; i < Model::directions; ++i) {
-        p += L::velocity[i][1] > 0 ? detail::bond(model, i, here, potentials(y + 1)) : 0;
+        p += stencil::velocity[i][1] > 0 ? detail::bond(model, i, here, potentials(y + 1)) : 0;
       }
       lowest = std::min(lowest, p);
       highest = std::max(highest, p);

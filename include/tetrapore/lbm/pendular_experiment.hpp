@@ -46,8 +46,8 @@ struct pendular_result {
 /// \par Domain  a bridge that the law knows; a volume for which its neck and its contact line are resolved
 template <class Forcing = velocity_shift, std::floating_point T = float>
 [[nodiscard]] pendular_result pendular_bridge(const pendular_set_up& o) {
-  using Model = mixture<d3q19, bgk, Forcing>;
-  using L = d3q19;
+  using fluids = mixture<d3q19, bgk, Forcing>;
+  using stencil = d3q19;
   pendular_result b;
   const young_laplace<> law{
       .surface_tension = 1.0, .contact_angle1 = o.contact_angle, .contact_angle2 = o.contact_angle};
@@ -66,7 +66,7 @@ template <class Forcing = velocity_shift, std::floating_point T = float>
   const int height = static_cast<int>(top) + o.margin;
   const double centre = half_gap + o.radius;
 
-  const auto model = repelling_pair<Model>(o.mixture.attraction, o.mixture.tau);
+  const auto model = repelling_pair<fluids>(o.mixture.attraction, o.mixture.tau);
   const coexistence phases{o.mixture.attraction, o.mixture.factor, (o.mixture.factor - 1) / 2, o.mixture.main};
   const auto rho = reservoirs(phases, start.value.suction * o.mixture.flat_tension / o.radius);
   if (!rho.ok()) {
@@ -79,7 +79,7 @@ template <class Forcing = velocity_shift, std::floating_point T = float>
     const double dz = z + 0.5 - centre;
     return (x + 0.5) * (x + 0.5) + (y + 0.5) * (y + 0.5) + dz * dz < r * r;
   };
-  simulation<Model, T> s(
+  simulation<fluids, T> s(
       model, {{{side, side, height}, {mirror, mirror, mirror}, {mirror, mirror, mirror}}, [&](int x, int y, int z) {
                 return site{solid(x, y, z) ? site_kind::solid : site_kind::fluid, 0};
               }});
@@ -114,12 +114,12 @@ template <class Forcing = velocity_shift, std::floating_point T = float>
         const auto here = s.densities_at(n);
         disc += (gas[0] - gas[1] - here[0] + here[1]) / (gas[0] - gas[1] - liquid[0] + liquid[1]);
         double stress = 0;
-        for (std::size_t i = 0; i < Model::directions; ++i) {
-          if (L::velocity[i][2] != 1) {
+        for (std::size_t i = 0; i < fluids::directions; ++i) {
+          if (stencil::velocity[i][2] != 1) {
             continue;
           }
           for (std::size_t c = 0; c < 2; ++c) {  // what comes from the image, and as much goes there
-            stress += 2 * (static_cast<double>(s.population(c, n, i)) + L::weight[i] * model.reference[c]);
+            stress += 2 * (static_cast<double>(s.population(c, n, i)) + stencil::weight[i] * model.reference[c]);
           }
           const auto beyond = map.seen(n, opposite(static_cast<int>(i))).node;
           stress += detail::bond(model, i, here, s.densities_at(static_cast<std::size_t>(beyond)));
@@ -166,11 +166,12 @@ template <class Forcing = velocity_shift, std::floating_point T = float>
       for (int z = 0; z < height; ++z) {
         bool beside = false;
         bool wet = false;
-        for (std::size_t i = 1; i < Model::directions && solid(x, y, z); ++i) {
-          const std::array<int, 3> p{x + L::velocity[i][0], y + L::velocity[i][1], z + L::velocity[i][2]};
+        for (std::size_t i = 1; i < fluids::directions && solid(x, y, z); ++i) {
+          const std::array<int, 3> p{x + stencil::velocity[i][0], y + stencil::velocity[i][1],
+                                     z + stencil::velocity[i][2]};
           const bool inside = p[0] >= 0 && p[0] < side && p[1] >= 0 && p[1] < side && p[2] >= 0 && p[2] < height;
-          const auto n = inside ? map.node_at(p[0], p[1], p[2]) : site_map<L>::none;
-          if (n != site_map<L>::none) {
+          const auto n = inside ? map.node_at(p[0], p[1], p[2]) : site_map<stencil>::none;
+          if (n != site_map<stencil>::none) {
             const auto here = s.densities_at(static_cast<std::size_t>(n));
             beside = true;
             wet = wet || here[1] > here[0];
