@@ -29,7 +29,8 @@ expect inscribed_nodes "== 3"
 expect best2d_ratio_msp "< 0.78"
 expect entry_ratio_msp_raw "> 0.4"
 expect entry_ratio_msp_raw "< 0.8"
-expect discretisation "== 0.05"
+expect discretisation "> 0.0888"
+expect discretisation "< 0.0889"
 bracket=$(value bracket)
 steps=$(value steps)
 
