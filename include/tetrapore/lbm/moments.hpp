@@ -69,24 +69,11 @@ class simulation<Model, T, storage::moments, Lanes> : public detail::surrounding
   template <class Of>
     requires std::invocable<Of&, const std::array<int, 3>&, densities&, std::array<double, 3>&>
   void initialise(Of of) {
-    for (std::size_t n = 0; n < map_.size(); ++n) {
-      densities rho = model_.reference;
-      std::array<double, 3> u{};
-      of(map_.place(n), rho, u);
-      for (std::size_t c = 0; c < components; ++c) {
-        relaxation_target<T> t;
-        t.rho = static_cast<T>(rho[c]);
-        t.excess = static_cast<T>(rho[c] - model_.reference[c]);
-        for (std::size_t a = 0; a < 3; ++a) {
-          t.velocity[a] = static_cast<T>(u[a]);
-        }
-        T f[directions];
-        Model::fill(t, f);
-        moment(c, n, 0) = Model::excess_of(f);
-        detail::repeat<axes>([&]<int A>(detail::number<A>)
-                                 TETRAPORE_INLINE { moment(c, n, 1 + A) = detail::first_moment<lattice_type, A>(f); });
-      }
-    }
+    this->lay_equilibria(of, [&](std::size_t c, std::size_t n, const T(&f)[directions]) {
+      moment(c, n, 0) = Model::excess_of(f);
+      detail::repeat<axes>([&]<int A>(detail::number<A>)
+                               TETRAPORE_INLINE { moment(c, n, 1 + A) = detail::first_moment<lattice_type, A>(f); });
+    });
   }
 
   void step() {

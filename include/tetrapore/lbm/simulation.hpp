@@ -55,24 +55,11 @@ class simulation : public detail::surroundings<Model, T, Lanes, Storage == stora
   template <class Of>
     requires std::invocable<Of&, const std::array<int, 3>&, densities&, std::array<double, 3>&>
   void initialise(Of of) {
-    for (std::size_t n = 0; n < map_.size(); ++n) {
-      densities rho = model_.reference;
-      std::array<double, 3> u{};
-      of(map_.place(n), rho, u);
-      for (std::size_t c = 0; c < components; ++c) {
-        relaxation_target<T> t;
-        t.rho = static_cast<T>(rho[c]);
-        t.excess = static_cast<T>(rho[c] - model_.reference[c]);
-        for (std::size_t a = 0; a < 3; ++a) {
-          t.velocity[a] = static_cast<T>(u[a]);
-        }
-        T f[directions];
-        Model::fill(t, f);
-        for (std::size_t i = 0; i < directions; ++i) {
-          population(c, n, i) = f[i];
-        }
+    this->lay_equilibria(of, [&](std::size_t c, std::size_t n, const T(&f)[directions]) {
+      for (std::size_t i = 0; i < directions; ++i) {
+        population(c, n, i) = f[i];
       }
-    }
+    });
   }
 
   void step() {

@@ -126,6 +126,28 @@ class surroundings {
     make_images();
   }
 
+  /// Equilibria of all nodes: `of(place, rho, u)` says of which density and velocity, `put(component, node, f)` takes the
+  /// populations.
+  template <class Of, class Put>
+  void lay_equilibria(Of& of, const Put& put) const {
+    for (std::size_t n = 0; n < map_.size(); ++n) {
+      densities rho = model_.reference;
+      std::array<double, 3> u{};
+      of(map_.place(n), rho, u);
+      for (std::size_t c = 0; c < components; ++c) {
+        relaxation_target<T> t;
+        t.rho = static_cast<T>(rho[c]);
+        t.excess = static_cast<T>(rho[c] - model_.reference[c]);
+        for (std::size_t a = 0; a < 3; ++a) {
+          t.velocity[a] = static_cast<T>(u[a]);
+        }
+        T f[directions];
+        Model::fill(t, f);
+        put(c, n, f);
+      }
+    }
+  }
+
   [[nodiscard]] T* psi(std::size_t c) noexcept { return psi_[c].data() + beyond; }
   /// Where ψ of walls of a tag is kept.
   [[nodiscard]] std::int32_t cell_of_wall(std::uint8_t tag) const noexcept {
