@@ -126,8 +126,8 @@ class surroundings {
     make_images();
   }
 
-  /// Equilibria of all nodes: `of(place, rho, u)` says of which density and velocity, `put(component, node, f)` takes the
-  /// populations.
+  /// Equilibria of all nodes: `of(place, rho, u)` says of which density and velocity, `put(component, node, f)` takes
+  /// the populations.
   template <class Of, class Put>
   void lay_equilibria(Of& of, const Put& put) const {
     for (std::size_t n = 0; n < map_.size(); ++n) {
