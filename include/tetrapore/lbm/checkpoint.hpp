@@ -53,7 +53,7 @@ struct checkpoint_header {
   std::uint64_t parameters;  ///< hash of what the state belongs to
   std::uint64_t size;        ///< bytes between this header and the checksum
 };
-inline constexpr std::array<char, 8> checkpoint_magic{'t', 'p', 'l', 'b', 'm', 's', 't', '1'};
+inline constexpr std::array<char, 8> checkpoint_magic{'t', 'p', 'l', 'b', 'm', 's', 't', '2'};
 inline constexpr std::uint64_t checkpoint_order = 0x0102030405060708ULL;
 
 }  // namespace detail
@@ -134,6 +134,10 @@ class checkpoint_reader {
       std::memcpy(values.data(), rest_.data(), values.size_bytes());
     }
     rest_ = rest_.subspan(values.size_bytes());
+  }
+  /// \throw input_error  at this state
+  [[noreturn]] void refuse(const std::string& found, const std::string& expected) const {
+    throw input_error(where_, found, expected);
   }
   void finish() const {
     if (!rest_.empty()) {

@@ -132,11 +132,12 @@ struct entry_result {
 
 /// A throat in which p_c can be held.
 /// \par Units  lattice units: nodes, steps; positions of the apex are above the plane of the grains' centres
-/// \tparam T  float or double
-template <std::floating_point T = float, class Model = mixture<d3q19, bgk>>
+/// \tparam T        float or double
+/// \tparam Storage  of the nodes: in_place takes any τ, moments 1 alone
+template <std::floating_point T = float, class Model = mixture<d3q19, bgk>, storage Storage = leanest_storage<Model>>
 class entry_experiment {
  public:
-  using simulation_type = simulation<Model, T>;
+  using simulation_type = simulation<Model, T, Storage>;
 
   /// Throws parameter_error for a throat that no law covers, that the lattice does not resolve or has no room for, and
   /// for a pair that the table of measured mixtures contradicts.
@@ -342,7 +343,7 @@ class entry_experiment {
 
   [[nodiscard]] std::uint64_t fingerprint() const noexcept {
     parameter_hash h;
-    h.add(std::uint64_t{sizeof(T)}).add(std::uint64_t{fluid_nodes()});
+    h.add(std::uint64_t{fluid_nodes()});
     for (std::size_t k = 0; k < 3; ++k) {
       const auto& side = set_up_.throat.sides[k];
       h.add(side.point.x).add(side.point.y).add(side.radius);
@@ -361,7 +362,7 @@ class entry_experiment {
   entry_set_up set_up_;
   plane_entry plane_;
   throat_on_lattice throat_;
-  held_fluids<T, Model> fluids_;
+  held_fluids<T, Model, Storage> fluids_;
   std::vector<std::int32_t> axis_;
 };
 static_assert(held_experiment<entry_experiment<>>);

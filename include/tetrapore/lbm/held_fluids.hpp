@@ -4,6 +4,7 @@
 #include "tetrapore/lbm/checkpoint.hpp"
 #include "tetrapore/lbm/coexistence.hpp"
 #include "tetrapore/lbm/experiment.hpp"
+#include "tetrapore/lbm/moments.hpp"
 #include "tetrapore/lbm/simulation.hpp"
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <string>
 #include <vector>
 
 /// \file
@@ -41,13 +43,22 @@ struct meniscus_sight {
   bool has_liquid;
 };
 
+/// The storage of a throat's fluids: moments where the collision at τ = 1 leaves nothing else, a third faster there.
+template <class Model>
+inline constexpr storage leanest_storage = requires {
+  requires Model::collision_type::equilibrium_at_one;
+} && !Model::forcing_type::carries_source ? storage::moments : storage::in_place;
+
 /// Two components of a calibrated pair on the nodes of a domain, the first the gas.
 /// \par Units  lattice units: nodes, steps
-/// \tparam T  float or double
-template <std::floating_point T, class Model>
+/// \tparam T        float or double
+/// \tparam Storage  in_place, or moments where τ is 1
+template <std::floating_point T, class Model, storage Storage = storage::in_place>
 class held_fluids {
+  static_assert(Storage != storage::two_lattices, "held_fluids takes storage::in_place or storage::moments");
+
  public:
-  using simulation_type = simulation<Model, T>;
+  using simulation_type = simulation<Model, T, Storage>;
   using lattice_type = typename Model::lattice_type;
   /// Steps between looks; even: populations then lie at their own node.
   static constexpr std::uint64_t glance = 100;
@@ -200,9 +211,9 @@ class held_fluids {
 
   /// The present state becomes the one that holds start from.
   void keep() {
-    kept_.resize(Model::components * sim_.sites().size() * Model::directions);
+    kept_.resize(state_size());
     std::size_t at = 0;
-    for_each_population([&](const T& f) { kept_[at++] = f; });
+    for_each_number([&](const T& f) { kept_[at++] = f; });
     kept_at_ = held_;
   }
   void back() {
@@ -211,21 +222,31 @@ class held_fluids {
       return;
     }
     std::size_t at = 0;
-    for_each_population([&](T& f) { f = kept_[at++]; });
+    for_each_number([&](T& f) { f = kept_[at++]; });
   }
 
   void save(checkpoint_writer& out) const {
+    out.append(std::uint32_t{Storage == storage::moments});
+    out.append(std::uint32_t{sizeof(T)});
     out.append(kept_at_);
     out.append(std::span<const T>(kept_));
   }
   /// Everything that `save` wrote, the last of a state; nothing is changed where it is not all there.
+  /// \throw input_error  fewer or more numbers, or those of another storage or precision
   void restore(checkpoint_reader& in) {
+    std::uint32_t moments = 0;
+    std::uint32_t bytes = 0;
+    in.take(moments);
+    in.take(bytes);
+    if (moments != std::uint32_t{Storage == storage::moments} || bytes != sizeof(T)) {
+      in.refuse(kept_as(moments != 0, bytes), kept_as(Storage == storage::moments, sizeof(T)));
+    }
     double at = none;
     in.take(at);
-    std::vector<T> populations(at == none ? 0 : Model::components * sim_.sites().size() * Model::directions);
-    in.take(std::span<T>(populations));
+    std::vector<T> numbers(at == none ? 0 : state_size());
+    in.take(std::span<T>(numbers));
     in.finish();
-    kept_ = std::move(populations);
+    kept_ = std::move(numbers);
     kept_at_ = at;
     back();
   }
@@ -244,12 +265,29 @@ class held_fluids {
     sim_.set_reservoir(above_, rho.gas);
     sim_.set_reservoir(below_tag_, rho.liquid);
   }
+  [[nodiscard]] static std::string kept_as(bool moments, std::size_t bytes) {
+    return std::string(moments ? "moments" : "populations") + " in numbers of " + std::to_string(bytes) + " bytes";
+  }
+
+  /// Numbers that are kept of a node and component.
+  static constexpr std::size_t numbers = [] {
+    if constexpr (Storage == storage::moments) {
+      return simulation_type::moments;
+    } else {
+      return Model::directions;
+    }
+  }();
+  [[nodiscard]] std::size_t state_size() const noexcept { return Model::components * numbers * sim_.sites().size(); }
   template <class Do>
-  void for_each_population(Do apply) {
+  void for_each_number(Do apply) {
     for (std::size_t c = 0; c < Model::components; ++c) {
-      for (std::size_t i = 0; i < Model::directions; ++i) {
+      for (std::size_t k = 0; k < numbers; ++k) {
         for (std::size_t n = 0; n < sim_.sites().size(); ++n) {
-          apply(sim_.population(c, n, i));
+          if constexpr (Storage == storage::moments) {
+            apply(sim_.moment(c, n, k));
+          } else {
+            apply(sim_.population(c, n, k));
+          }
         }
       }
     }

@@ -32,18 +32,19 @@ struct ring_report {
 
 /// A throat deep enough to be drained.
 /// \par Units  lattice units: nodes, steps
-/// \tparam T  float or double
-template <std::floating_point T = float, class Model = mixture<d3q19, bgk>>
+/// \tparam T        float or double
+/// \tparam Storage  of the nodes: in_place takes any τ, moments 1 alone
+template <std::floating_point T = float, class Model = mixture<d3q19, bgk>, storage Storage = leanest_storage<Model>>
 class ring_experiment {
  public:
-  using simulation_type = simulation<Model, T>;
+  using simulation_type = simulation<Model, T, Storage>;
 
   /// \param depth  from the plane of the centres to each reservoir, in radii of the largest grain
   explicit ring_experiment(const entry_set_up& s, double depth = 0.8)
       : set_up_(s),
         throat_(s.throat, s.sides, resolution(depth)),
         fluids_({s.pair.attraction, s.pair.factor, s.pair.common, s.pair.main}, s.gas_share,
-                throat_.template sites<d3q19>(), throat_.middle(), reservoir_above, reservoir_below) {
+                throat_.template sites<d3q19>(), throat_.middle(), reservoir_above, reservoir_below, s.tau) {
     fluids_.set_wall(grain_wall, wall_densities(fluids_.pair(), s.contact_angle));
     fluids_.set_wall(liquid_wall, wall_densities(fluids_.pair(), 0));
     fluids_.set_wall(0, wall_densities(fluids_.pair(), 0));
@@ -84,7 +85,7 @@ class ring_experiment {
       return r;
     }
     double before = 0;
-    for (std::uint64_t waited = 0;; waited += held_fluids<T, Model>::glance) {
+    for (std::uint64_t waited = 0;; waited += held_fluids<T, Model, Storage>::glance) {
       if (waited % 1000 == 0) {
         const double now = fluids_.simulation_of().mass(1);
         if (!std::isfinite(now)) {
@@ -100,7 +101,7 @@ class ring_experiment {
         }
         before = now;
       }
-      fluids_.advance(held_fluids<T, Model>::glance, r);
+      fluids_.advance(held_fluids<T, Model, Storage>::glance, r);
       watch(r);
     }
   }
@@ -231,7 +232,7 @@ class ring_experiment {
 
   entry_set_up set_up_;
   throat_on_lattice throat_;
-  held_fluids<T, Model> fluids_;
+  held_fluids<T, Model, Storage> fluids_;
 };
 
 }  // namespace lbm

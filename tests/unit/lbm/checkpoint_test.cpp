@@ -97,7 +97,13 @@ TEST_CASE("an experiment that is killed between holds goes on to the bit") {
   entry_experiment<float> stranger(other);
   CHECK_THROWS_AS(static_cast<void>(stranger.restore(saved, options)), input_error);
   entry_experiment<double> finer(s);
-  CHECK_THROWS_AS(static_cast<void>(finer.restore(saved, options)), input_error);
+  CHECK_THROWS_WITH_AS(static_cast<void>(finer.restore(saved, options)),
+                       "state: found moments in numbers of 4 bytes, expected moments in numbers of 8 bytes",
+                       input_error);
+  entry_experiment<float, mixture<d3q19, bgk>, storage::in_place> elsewhere(s);
+  CHECK_THROWS_WITH_AS(static_cast<void>(elsewhere.restore(saved, options)),
+                       "state: found moments in numbers of 4 bytes, expected populations in numbers of 4 bytes",
+                       input_error);
 }
 
 TEST_CASE("a hold at a pressure that no fluid bears says that a phase dissolves, without a step") {
