@@ -243,10 +243,10 @@ class held_fluids {
     }
     double at = none;
     in.take(at);
-    std::vector<T> numbers(at == none ? 0 : state_size());
-    in.take(std::span<T>(numbers));
+    std::vector<T> state(at == none ? 0 : state_size());
+    in.take(std::span<T>(state));
     in.finish();
-    kept_ = std::move(numbers);
+    kept_ = std::move(state);
     kept_at_ = at;
     back();
   }
