@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# lattice_permeability_test.sh FOLDER: runs the program FOLDER/lattice_permeability on a lattice of spheres and checks the
-# keys on stdout, the file, the messages and the exit codes.
+# lattice_permeability_test.sh FOLDER: runs the program FOLDER/lattice_permeability on a lattice of spheres and checks
+# the keys on stdout, the file, the messages and the exit codes.
 source "$(dirname "$(realpath "${BASH_SOURCE[0]}")")/common.sh"
 
-keys="grains nodes nodes_per_radius fluid_nodes porosity permeability_coarse permeability permeability_over_r2 \
-permeability_extrapolated discretisation_estimate steps mlups seconds"
+keys="grains nodes nodes_per_radius fluid_nodes porosity half_way_share permeability_coarse permeability \
+permeability_over_r2 permeability_extrapolated discretisation_estimate steps mlups seconds"
 files="lattices.csv"
 
 every_run() {
@@ -19,8 +19,9 @@ awk 'BEGIN {
   for (i = 0; i < 2; ++i) for (j = 0; j < 2; ++j) for (k = 0; k < 2; ++k) print i + 0.2, j + 0.3, k + 0.4, 0.4754
 }' >cubic.txt
 runs "a lattice of spheres" cubic.txt --periodic xyz --nodes 24 --steady 1e-4
-expect permeability "> 0.8 * 0.003971"
-expect permeability "< 1.25 * 0.003971"
+expect permeability "> 0.9 * 0.003971"
+expect permeability "< 1.1 * 0.003971"
+expect half_way_share "< 0.3"
 expect porosity "> 0.53"
 expect porosity "< 0.57"
 runs "in float, along z" cubic.txt --periodic xyz --nodes 12 --axis z --steady 1e-3 --precision float --tau 0.8
