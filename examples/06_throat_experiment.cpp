@@ -35,6 +35,7 @@ void print(const Experiment& e, const lbm::threshold_search& search, std::uint64
   key("entry_ratio_msp", result.value / unit);
   key("correction", result.correction);
   key("discretisation", result.discretisation);
+  std::printf("film=%s\n", describe(result.film));
   key("entry_ratio_msp_raw", result.value / result.correction / unit);
   key("entry_ratio_best2d", result.value / result.correction / e.plane().best);
   key("best2d_ratio_msp", e.plane().best / unit);

@@ -4,7 +4,7 @@
 # again, and gives it bad input and bad states; checks keys, files, messages and exit codes.
 source "$(dirname "$(realpath "${BASH_SOURCE[0]}")")/common.sh"
 
-keys="end last_hold entry_ratio_msp correction discretisation entry_ratio_msp_raw entry_ratio_best2d best2d_ratio_msp bracket \
+keys="end last_hold entry_ratio_msp correction discretisation film entry_ratio_msp_raw entry_ratio_best2d best2d_ratio_msp bracket \
 measured_lower entry_pressure_lattice surface_tension_lattice inscribed_nodes retraction_nodes fluid_nodes holds steps \
 updates mlups seconds"
 coarse="--gaps 0.4 0.4 0.4 --resolution 3 --bracket 0.05 --no-rings"
@@ -42,6 +42,7 @@ ring_${side}_suction_law"
 done
 whole --resolution 2 --bracket 0.1
 runs "rings that the gas leaves at three contacts" --resolution 2 --bracket 0.1
+grep -q "^film=unresolved" stdout || fail "$title: a film at two nodes"
 [ "$(head -c 4 out/meniscus.png | tail -c 3)" = PNG ] || fail "$title: no picture"
 [ "$(ls out/rings_*.vti | wc -l)" = "$(grep -c DataSet out/rings.pvd)" ] || fail "$title: rings.pvd lists other files"
 expect ring_12_neck "> 0.2"

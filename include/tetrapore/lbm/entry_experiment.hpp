@@ -6,6 +6,7 @@
 #include "tetrapore/law/entry/mirror_sided.hpp"
 #include "tetrapore/lbm/calibration.hpp"
 #include "tetrapore/lbm/held_fluids.hpp"
+#include "tetrapore/lbm/measured_pair.hpp"
 #include "tetrapore/lbm/throat.hpp"
 
 #include <algorithm>
@@ -73,7 +74,8 @@ struct entry_set_up {
   bool halved = true;      ///< a throat that is its own mirror image is solved by one half
   bool fitted = true;      ///< radii shift so that the neck has as many nodes as it has volume
   std::size_t most_nodes = 1000000;
-  double patience = 3500;  ///< steps per node of r_in after which a hold creeps, if not `rules.most_steps` before
+  double patience =
+      3500;  ///< steps per node of r_in (4 at least) after which a hold creeps, if not `rules.most_steps` before
   hold_rules rules{};
 };
 
@@ -116,6 +118,24 @@ struct plane_entry {
   return {2 / circle.value, princen.value, best.value};
 }
 
+/// What became of the film that covers grains at θ = 0 while gas passes.
+enum class film_status : std::uint8_t {
+  none,       ///< there is none where θ > 0
+  unknown,    ///< no hold has come to rest
+  resolved,   ///< liquid is left beside the grains
+  unresolved  ///< the film is thinner than the lattice resolves: beside a tenth of the grains a quarter of it is left
+};
+
+[[nodiscard]] constexpr const char* describe(film_status s) noexcept {
+  switch (s) {
+    case film_status::none: return "no film";
+    case film_status::unknown: return "no hold has come to rest";
+    case film_status::resolved: return "resolved";
+    case film_status::unresolved: return "unresolved: thinner than the lattice shows";
+  }
+  return "not a status of a film";
+}
+
 /// What an entry experiment found. \par Units  of the throat: pressures per surface tension, 1/length
 struct entry_result {
   double value;  ///< entry pressure, corrected where it can be; NaN where the search has not converged
@@ -126,8 +146,9 @@ struct entry_result {
   std::uint64_t steps;
   std::uint64_t updates;
   std::uint32_t holds;
-  search_end end;  ///< why the search stopped
-  hold_end last;   ///< how the last hold ended
+  search_end end;    ///< why the search stopped
+  hold_end last;     ///< how the last hold ended
+  film_status film;  ///< in the last stable hold; where unresolved, `discretisation` is 9 % and more
 };
 
 /// A throat in which p_c can be held.
@@ -140,7 +161,8 @@ class entry_experiment {
   using simulation_type = simulation<Model, T, Storage>;
 
   /// Throws parameter_error for a throat that no law covers, that the lattice does not resolve or has no room for, and
-  /// for a pair that the table of measured mixtures contradicts.
+  /// for a pair whose factor or tension are not as measured: in the table or, where it has none, here on a flat
+  /// interface (0.2 to 1.5 s).
   explicit entry_experiment(const entry_set_up& s)
       : set_up_(s),
         plane_(plane_entry_of(s.throat, s.sides, s.contact_angle)),
@@ -151,7 +173,7 @@ class entry_experiment {
       throw parameter_error("hold", "no motion that counts as rest, or fewer than 1000 steps", "more");
     }
     check_pair();
-    if (!(inscribed() >= 2)) {
+    if (!(inscribed() >= 2 * (1 - 1e-12))) {
       throw parameter_error("throat", "an inscribed circle of " + short_number(inscribed()) + " nodes",
                             "a radius of 2 or more: films and interfaces are as wide");
     }
@@ -159,6 +181,7 @@ class entry_experiment {
     fluids_.set_wall(liquid_wall, wall_densities(fluids_.pair(), 0));
     fluids_.set_wall(0, wall_densities(fluids_.pair(), 0));  // a face of the box as a wetting side
     find_axis();
+    find_walls();
   }
 
   [[nodiscard]] const plane_entry& plane() const noexcept { return plane_; }
@@ -208,13 +231,14 @@ class entry_experiment {
     if (!fluids_.started()) {
       const double level = throat_.middle() + inscribed();
       fluids_.start(capillary, [&](const std::array<int, 3>& p) {
-        return throat_.to_grains(p[0], p[1], p[2]) < film ? 0 : 0.5 * (1 + std::tanh((p[2] - level) / 1.5));
+        return throat_.to_grains(p[0], p[1], p[2]) < first_film ? 0 : 0.5 * (1 + std::tanh((p[2] - level) / 1.5));
       });
     }
     fluids_.ramp(capillary, set_up_.rules.ramp, r);
     const double passed = -2 * inscribed();
     hold_rules rules = set_up_.rules;
-    rules.most_steps = std::min(rules.most_steps, static_cast<std::uint64_t>(set_up_.patience * inscribed()));
+    rules.most_steps =
+        std::min(rules.most_steps, static_cast<std::uint64_t>(set_up_.patience * std::max(4.0, inscribed())));
     fluids_.wait(
         rules, interface_track(inscribed(), 5), -inscribed(), r,
         [&](const meniscus_sight& s) { return s.apex < passed ? hold_end::passed : hold_end::step_limit; }, watch);
@@ -239,7 +263,8 @@ class entry_experiment {
             m.updates,
             m.holds,
             m.end,
-            m.last};
+            m.last,
+            film_of(m)};
   }
 
   /// The kept state and where a search stands, as bytes.
@@ -261,7 +286,7 @@ class entry_experiment {
   }
 
  private:
-  static constexpr double film = 2.5;  ///< nodes of liquid on the grains in the first state
+  static constexpr double first_film = 2.5;  ///< nodes of liquid on the grains in the first state
 
   [[nodiscard]] throat_resolution resolution() const noexcept {
     double largest = 0;
@@ -282,24 +307,49 @@ class entry_experiment {
     return r;
   }
 
+  [[nodiscard]] film_status film_of(const threshold_search::memory& m) const noexcept {
+    if (set_up_.contact_angle > 0) {
+      return film_status::none;
+    }
+    constexpr double quarter = 0.25;
+    return m.lower_known == 0       ? film_status::unknown
+           : m.film_lower < quarter ? film_status::unresolved
+                                    : film_status::resolved;
+  }
+
   /// Correction and error were measured with the pair of G = 1.8, τ = 1 and the retraction of entry_retraction.
   [[nodiscard]] bool covered() const noexcept {
     return !set_up_.retraction && set_up_.tau == 1 && set_up_.pair.attraction == pair_18.attraction;
   }
 
-  /// A pair of the table of measured mixtures has the factor and the tension of the table.
+  /// The pair has the factor and the tension that were measured: as the table has them or, where it has none, as a
+  /// flat interface shows them now.
   void check_pair() const {
-    if constexpr (std::is_same_v<decltype(Model::forcing), velocity_shift>) {
-      const auto known = calibrated(forcing_kind::velocity_shift, set_up_.tau, set_up_.pair.attraction);
-      const auto differs = [](double a, double b) { return std::abs(a - b) > 0.02 * std::abs(b); };
-      if (known.ok() && (differs(set_up_.pair.factor, known.value.factor) ||
-                         differs(set_up_.pair.surface_tension, surface_tension(known.value, set_up_.pair.main)))) {
+    const calibrated_pair& pair = set_up_.pair;
+    double factor = 0;
+    double tension = 0;
+    constexpr bool in_table = std::is_same_v<typename Model::collision_type, bgk> &&
+                              std::is_same_v<decltype(Model::potential), linear_potential>;
+    constexpr auto forcing = Model::forcing_type::carries_source ? forcing_kind::guo : forcing_kind::velocity_shift;
+    if (const auto known = calibrated(forcing, set_up_.tau, pair.attraction); in_table && known.ok()) {
+      factor = known.value.factor;
+      tension = surface_tension(known.value, pair.main);
+    } else {
+      const auto found = measure_pair<Model>(pair.attraction, set_up_.tau, pair.main);
+      if (!found.ok()) {
         throw parameter_error("mixture",
-                              "c = " + short_number(set_up_.pair.factor) +
-                                  ", surface tension = " + short_number(set_up_.pair.surface_tension),
-                              short_number(known.value.factor) + ", " +
-                                  short_number(surface_tension(known.value, set_up_.pair.main)) + " as measured");
+                              "G = " + short_number(pair.attraction) + ", tau = " + short_number(set_up_.tau) +
+                                  ", whose flat interface does not come to rest: " + describe(found.reason),
+                              "two phases");
       }
+      factor = found.value.factor;
+      tension = found.value.surface_tension;
+    }
+    const auto differs = [](double a, double b) { return !(std::abs(a - b) <= 0.02 * std::abs(b)); };
+    if (differs(pair.factor, factor) || differs(pair.surface_tension, tension)) {
+      throw parameter_error(
+          "mixture", "c = " + short_number(pair.factor) + ", surface tension = " + short_number(pair.surface_tension),
+          short_number(factor) + ", " + short_number(tension) + " as measured");
     }
   }
 
@@ -326,8 +376,7 @@ class entry_experiment {
     return fluids_.pressure_at(static_cast<std::size_t>(axis_[z]));
   }
 
-  /// What the fluids show of p_c on the axis, nearer to the reservoirs than to the meniscus. Where the meniscus rests
-  /// it is what was set, or something flows.
+  /// What the fluids show of p_c on the axis, nearer to the reservoirs than to the meniscus.
   void judge(hold_report& r) const {
     if (r.end == hold_end::not_finite || r.end == hold_end::dissolved) {
       return;
@@ -335,10 +384,39 @@ class entry_experiment {
     const double apex = r.position + throat_.middle();
     const auto top = static_cast<double>(axis_.size() - 1);
     r.measured = axis_pressure(apex + 0.7 * (top - apex)) - axis_pressure(0.3 * apex);
+    r.film = film(r.value);
     const double coarse = 0.3 / (inscribed() * inscribed());  // the meniscus reaches to where the pressure is taken
-    if (r.end == hold_end::stable && std::abs(r.measured - r.value) > (set_up_.rules.flow + coarse) * r.value) {
-      r.end = hold_end::flowing;
+    r.end = compared(r, set_up_.rules.flow + coarse);
+  }
+
+  /// Nodes beside the grains, from the plane of their centres upward: the gas passes there.
+  void find_walls() {
+    const auto& map = fluids_.sites();
+    for (std::size_t n = 0; n < map.size(); ++n) {
+      const auto& p = map.place(n);
+      bool beside = false;
+      for (std::size_t i = 1; i < Model::directions; ++i) {
+        const auto& v = Model::lattice_type::velocity[i];
+        beside = beside || throat_.to_grains(p[0] + v[0], p[1] + v[1], p[2] + v[2]) < 0;
+      }
+      if (beside && p[2] >= throat_.middle()) {
+        beside_grains_.push_back(n);
+      }
     }
+  }
+  /// Of what is left of the liquid beside the grains, 0 where it is gas, the value below which a tenth lies.
+  [[nodiscard]] double film(double capillary) const {
+    const reservoir_pair bulk = fluids_.densities(capillary).value;
+    const double gas = bulk.gas[0] - bulk.gas[1];
+    const double liquid = bulk.liquid[0] - bulk.liquid[1];
+    std::vector<double> left;
+    for (const std::size_t n : beside_grains_) {
+      const auto rho = fluids_.simulation_of().densities_at(n);
+      left.push_back((gas - rho[0] + rho[1]) / (gas - liquid));
+    }
+    const auto tenth = left.begin() + static_cast<std::ptrdiff_t>(left.size() / 10);
+    std::nth_element(left.begin(), tenth, left.end());
+    return left.empty() ? 1 : *tenth;
   }
 
   [[nodiscard]] std::uint64_t fingerprint() const noexcept {
@@ -364,6 +442,7 @@ class entry_experiment {
   throat_on_lattice throat_;
   held_fluids<T, Model, Storage> fluids_;
   std::vector<std::int32_t> axis_;
+  std::vector<std::size_t> beside_grains_;
 };
 static_assert(held_experiment<entry_experiment<>>);
 

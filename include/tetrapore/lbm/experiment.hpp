@@ -28,7 +28,7 @@ enum class hold_end : std::uint8_t {
   drifting,    ///< the interface stands, but mass goes on moving
   step_limit,  ///< the interface still moves after the most steps that are allowed
   withdrew,    ///< the fluid went back where no meniscus can rest: the value lies below
-  flowing      ///< the interface stands, but the fluids show another value than was set: something flows through it
+  flowing      ///< the fluids show another value than was set: something flows through the interface
 };
 
 [[nodiscard]] constexpr bool lies_below(hold_end e) noexcept {
@@ -46,7 +46,7 @@ enum class hold_end : std::uint8_t {
     case hold_end::drifting: return "the interface stands, but mass drifts";
     case hold_end::step_limit: return "the interface still moves after the most steps allowed";
     case hold_end::withdrew: return "the fluid went back";
-    case hold_end::flowing: return "the interface stands, but something flows through it";
+    case hold_end::flowing: return "the fluids show another value than was set";
   }
   return "not an end of a hold";
 }
@@ -56,23 +56,37 @@ struct hold_report {
   double value = 0;     ///< that was set
   double measured = 0;  ///< what the fluids show of it
   double position = 0;  ///< of the interface
+  double film = 1;      ///< share of the liquid that is left beside wetting walls: a tenth of the nodes there has less
   std::uint64_t steps = 0;
   std::uint64_t updates = 0;  ///< of a fluid node, all components as one
   hold_end end = hold_end::stable;
 };
+
+/// How a hold ended that its interface calls stable or passed, when what the fluids show is compared with what was set.
+/// Where the interface rests they show the same, or something flows. Where it goes through they show what it bears on
+/// its way, which is less, most of all behind a constriction; more only where something flows that was not set.
+/// \param allowed  difference that measuring leaves, relative to the value
+[[nodiscard]] constexpr hold_end compared(const hold_report& r, double allowed) noexcept {
+  const double more = r.measured - r.value;
+  const double most = allowed * r.value;
+  const bool right = r.end == hold_end::passed ? more <= most : more <= most && -more <= most;
+  return right || !(r.end == hold_end::stable || r.end == hold_end::passed) ? r.end : hold_end::flowing;
+}
 
 /// Why a search ended.
 enum class search_end : std::uint8_t {
   running,      ///< not yet
   converged,    ///< the bracket is as narrow as asked
   unbracketed,  ///< refused: widened as often as allowed, the threshold is not inside
+  unbearable,   ///< refused: above the highest stable value, by the width asked, a phase falls apart
   undecided     ///< failed: a hold gave no answer; its end says why
 };
 
 [[nodiscard]] constexpr verdict verdict_of(search_end e) noexcept {
   switch (e) {
     case search_end::converged: return verdict::ok;
-    case search_end::unbracketed: return verdict::refused;
+    case search_end::unbracketed:
+    case search_end::unbearable: return verdict::refused;
     case search_end::running:
     case search_end::undecided: break;
   }
@@ -83,6 +97,7 @@ enum class search_end : std::uint8_t {
     case search_end::running: return "the search has not ended";
     case search_end::converged: return "the bracket is as narrow as asked";
     case search_end::unbracketed: return "the threshold lies outside the widest bracket allowed";
+    case search_end::unbearable: return "the threshold lies above what the fluids bear";
     case search_end::undecided: return "a hold gave no answer";
   }
   return "not an end of a search";
@@ -100,6 +115,7 @@ struct search_options {
 /// Bisection from a bracket that need not hold the threshold: an end that turns out to lie on the other side becomes
 /// the other end, and a new one is sought beyond. Values go up wherever they can: the first is the lower end. A hold
 /// that ends while the fluid still creeps was close to the threshold: values half a width above and below decide.
+/// A value at which a phase falls apart is a ceiling: the search goes on below it.
 class threshold_search {
  public:
   /// Everything that a search remembers. Plain numbers, to be saved as they are.
@@ -108,7 +124,9 @@ class threshold_search {
     double upper = 0;
     double measured_lower = 0;  ///< what the last stable hold showed
     double position_lower = 0;
-    double creeping = 0;  ///< a value at which the fluid still moved at the last step allowed; 0: none
+    double film_lower = 1;  ///< its film
+    double creeping = 0;    ///< a value at which the fluid still moved at the last step allowed; 0: none
+    double ceiling = 0;     ///< the least value at which a phase fell apart; 0: none
     std::uint64_t steps = 0;
     std::uint64_t updates = 0;
     std::uint32_t holds = 0;
@@ -140,7 +158,9 @@ class threshold_search {
   [[nodiscard]] double next() const noexcept {
     if (memory_.creeping > 0) {
       const double above = memory_.creeping * (1 + options_.width / 2);
-      return memory_.upper_known == 0 || memory_.upper > above ? above : memory_.creeping * (1 - options_.width / 2);
+      const bool room =
+          (memory_.upper_known == 0 || memory_.upper > above) && (memory_.ceiling == 0 || memory_.ceiling > above);
+      return room ? above : memory_.creeping * (1 - options_.width / 2);
     }
     return memory_.lower_known == 0 ? memory_.lower : memory_.upper_known == 0 ? memory_.upper : value();
   }
@@ -157,6 +177,7 @@ class threshold_search {
       memory_.lower_known = 1;
       memory_.measured_lower = r.measured;
       memory_.position_lower = r.position;
+      memory_.film_lower = r.film;
       if (!(memory_.upper > held)) {
         widen(memory_.upper, held * stride());
       }
@@ -169,13 +190,23 @@ class threshold_search {
     } else if (r.end == hold_end::step_limit && memory_.creeping == 0) {
       memory_.creeping = held;
       return;
+    } else if (r.end == hold_end::dissolved && memory_.upper_known == 0) {
+      memory_.ceiling = held;
+      if (memory_.lower_known == 0) {
+        widen(memory_.lower, held / stride(), search_end::undecided);
+      }
     } else {
       memory_.end = search_end::undecided;
     }
+    if (running() && memory_.upper_known == 0 && memory_.ceiling > 0 && !(memory_.upper < memory_.ceiling)) {
+      memory_.upper = (memory_.lower + memory_.ceiling) / 2;
+      if (memory_.lower_known != 0 && narrow(memory_.lower, memory_.ceiling)) {
+        memory_.end = search_end::unbearable;
+      }
+    }
     const bool outside = memory_.lower_known != 0 && memory_.lower >= memory_.creeping;
     memory_.creeping = outside || memory_.upper <= memory_.creeping ? 0 : memory_.creeping;
-    if (running() && memory_.lower_known != 0 && memory_.upper_known != 0 &&
-        memory_.upper - memory_.lower <= options_.width * value() * (1 + 1e-12)) {
+    if (running() && memory_.lower_known != 0 && memory_.upper_known != 0 && narrow(memory_.lower, memory_.upper)) {
       memory_.end = search_end::converged;
     }
   }
@@ -189,9 +220,12 @@ class threshold_search {
     }
     return by < 2 ? by : options_.widen < 2 ? 2 : options_.widen;
   }
-  void widen(double& end, double to) noexcept {
+  [[nodiscard]] bool narrow(double low, double high) const noexcept {
+    return high - low <= options_.width * (low + high) / 2 * (1 + 1e-12);
+  }
+  void widen(double& end, double to, search_end in_vain = search_end::unbracketed) noexcept {
     if (memory_.widenings == options_.most_widenings) {
-      memory_.end = search_end::unbracketed;
+      memory_.end = in_vain;
       return;
     }
     ++memory_.widenings;

@@ -15,12 +15,49 @@ TEST_CASE("brackets that start 30 % too low and 30 % too high end overlapping") 
   CHECK(low.upper - low.lower <= 0.1 * (low.upper + low.lower) / 2 * (1 + 1e-9));
   CHECK(low.discretisation == doctest::Approx(0.2));  // 0.05 (4 / 2)²: what was seen at 2 nodes is 0.14
   CHECK(low.updates > 0);
+  CHECK(low.film == film_status::unresolved);
   if (!sanitized) {
     const entry_result high = found(s, 1.3, 0.1);
     CHECK(high.end == search_end::converged);
     CHECK(low.lower < high.upper);
     CHECK(high.lower < low.upper);
   }
+}
+
+TEST_CASE("the film is resolved at four nodes, and there is none where liquid does not wet") {
+  entry_experiment<float> e(equal_spheres(0.4, 4));
+  search_options o = e.bracket(0.75);
+  o.most_widenings = 0;
+  threshold_search search(o);
+  CHECK(e.result(search).film == film_status::unknown);
+  const hold_report r = e.hold(search.next());
+  REQUIRE(r.end == hold_end::stable);
+  CHECK(r.film > 0.3);
+  search.take(r);
+  CHECK(e.result(search).film == film_status::resolved);
+  entry_set_up partly = equal_spheres(0.4, 4);
+  partly.contact_angle = 0.7;
+  CHECK(entry_experiment<float>(partly).result(search).film == film_status::none);
+}
+
+TEST_CASE("a pair that nobody has measured is measured, and refused where it is not as claimed") {
+  entry_set_up s = equal_spheres(0.4, 2);
+  s.pair.attraction = 0.4;  // below the critical strength
+  CHECK_THROWS_WITH_AS(entry_experiment<float>{s}, doctest::Contains("a phase dissolved"), parameter_error);
+  s.pair.attraction = 2.6;  // the table ends at 2.4
+  CHECK_THROWS_WITH_AS(entry_experiment<float>{s}, doctest::Contains("as measured"), parameter_error);
+  if (sanitized) {
+    return;
+  }
+  const auto pair = measure_pair<mixture<d3q19, bgk>>(2.6, 1);
+  REQUIRE(pair.ok());
+  s.pair = pair.value;
+  CHECK_NOTHROW(entry_experiment<float>{s});
+  s.pair.surface_tension *= 1.03;
+  CHECK_THROWS_AS(entry_experiment<float>{s}, parameter_error);
+  s.pair = pair.value;
+  s.pair.factor *= 0.97;
+  CHECK_THROWS_AS(entry_experiment<float>{s}, parameter_error);
 }
 
 TEST_CASE("a throat that the lattice does not resolve is refused") {

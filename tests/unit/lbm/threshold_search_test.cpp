@@ -18,11 +18,15 @@ struct gate {
   int kept = 0;
   int returned = 0;
   hold_end failure = hold_end::stable;
+  double bears = 1e300;
 
   hold_report hold(double value) {
     held.push_back(value);
     hold_report r{.value = value, .measured = 0.99 * value, .steps = 10, .updates = 100};
-    r.end = failure != hold_end::stable ? failure : value > threshold ? hold_end::passed : hold_end::stable;
+    r.end = failure != hold_end::stable ? failure
+            : value > bears             ? hold_end::dissolved
+            : value > threshold         ? hold_end::passed
+                                        : hold_end::stable;
     return r;
   }
   void keep() { ++kept; }
@@ -102,7 +106,7 @@ TEST_CASE("a search in which every hold creeps ends undecided") {
 }
 
 TEST_CASE("a hold without an answer ends the search and is named") {
-  for (const hold_end why : {hold_end::not_finite, hold_end::dissolved, hold_end::drifting}) {
+  for (const hold_end why : {hold_end::not_finite, hold_end::flowing, hold_end::drifting}) {
     gate g{1};
     g.failure = why;
     threshold_search s({});
@@ -113,6 +117,67 @@ TEST_CASE("a hold without an answer ends the search and is named") {
     CHECK(verdict_of(why) == verdict::failed);
     CHECK(verdict_of(s.now().end) == verdict::failed);
   }
+}
+
+TEST_CASE("fluids that show another value than was set are named, but for what an interface spends on its way") {
+  const auto end = [](hold_end e, double measured) {
+    hold_report r{.value = 2, .measured = measured};
+    r.end = e;
+    return compared(r, 0.05);
+  };
+  CHECK(end(hold_end::stable, 2.09) == hold_end::stable);
+  CHECK(end(hold_end::stable, 1.91) == hold_end::stable);
+  CHECK(end(hold_end::stable, 2.11) == hold_end::flowing);
+  CHECK(end(hold_end::stable, 1.89) == hold_end::flowing);
+  CHECK(end(hold_end::passed, 1.5) == hold_end::passed);
+  CHECK(end(hold_end::passed, 2.11) == hold_end::flowing);
+  CHECK(end(hold_end::passed, std::nan("")) == hold_end::flowing);
+  CHECK(end(hold_end::stable, std::nan("")) == hold_end::flowing);
+  CHECK(end(hold_end::step_limit, 9) == hold_end::step_limit);
+  CHECK(end(hold_end::drifting, 9) == hold_end::drifting);
+}
+
+TEST_CASE("a search goes on below values at which a phase falls apart") {
+  for (const double threshold : {0.4, 0.6, 0.75, 0.85}) {
+    for (const double bears : {0.9, 1.0, 1.29}) {
+      CAPTURE(threshold);
+      CAPTURE(bears);
+      gate g{threshold};
+      g.bears = bears;
+      for (const double start : {0.7, 1.0, 1.4}) {
+        threshold_search s({.lower = 0.7 * start, .upper = 1.3 * start});
+        run(g, s);
+        CHECK(s.now().end == search_end::converged);
+        CHECK(s.now().lower <= threshold);
+        CHECK(s.now().upper > threshold);
+      }
+    }
+  }
+}
+
+TEST_CASE("a threshold above what the fluids bear is named, and how far they bore") {
+  for (const double start : {0.5, 1.0, 2.0}) {
+    CAPTURE(start);
+    gate g{5};
+    g.bears = 0.9;
+    threshold_search s({.lower = 0.7 * start, .upper = 1.3 * start});
+    run(g, s);
+    CHECK(s.now().end == search_end::unbearable);
+    CHECK(verdict_of(s.now().end) == verdict::refused);
+    CHECK(s.now().lower <= 0.9);
+    CHECK(s.now().ceiling > 0.9);
+    CHECK(s.now().ceiling - s.now().lower <= 0.03 * 0.9 * 1.02);
+  }
+}
+
+TEST_CASE("fluids that fall apart at every value end a search that went down in vain") {
+  gate g{1};
+  g.bears = 0;
+  threshold_search s({.most_widenings = 3});
+  run(g, s);
+  CHECK(s.now().end == search_end::undecided);
+  CHECK(s.now().last == hold_end::dissolved);
+  CHECK(s.now().holds == 4);
 }
 
 TEST_CASE("a search that is taken up from its memory goes on as if it had never stopped") {
