@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "tetrapore/core/eliminate.hpp"
 #include "tetrapore/core/error.hpp"
 #include "tetrapore/core/outcome.hpp"
 
@@ -8,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <utility>
 
 /// \file
 /// Two components side by side: which densities belong to a capillary pressure.
@@ -115,36 +115,6 @@ struct reservoir_pair {
 
 namespace detail {
 
-/// Solves a small linear system by elimination with pivots; false where it is singular.
-template <std::size_t N>
-[[nodiscard]] inline bool eliminate(std::array<std::array<double, N>, N> a, std::array<double, N>& x) noexcept {
-  for (std::size_t k = 0; k < N; ++k) {
-    std::size_t pivot = k;
-    for (std::size_t i = k + 1; i < N; ++i) {
-      pivot = std::abs(a[i][k]) > std::abs(a[pivot][k]) ? i : pivot;
-    }
-    if (!(std::abs(a[pivot][k]) > 1e-12)) {
-      return false;
-    }
-    std::swap(a[k], a[pivot]);
-    std::swap(x[k], x[pivot]);
-    for (std::size_t i = k + 1; i < N; ++i) {
-      const double share = a[i][k] / a[k][k];
-      for (std::size_t j = k; j < N; ++j) {
-        a[i][j] -= share * a[k][j];
-      }
-      x[i] -= share * x[k];
-    }
-  }
-  for (std::size_t k = N; k-- > 0;) {
-    for (std::size_t j = k + 1; j < N; ++j) {
-      x[k] -= a[k][j] * x[j];
-    }
-    x[k] /= a[k][k];
-  }
-  return true;
-}
-
 /// Whether a phase of given densities does not fall apart: dμ_a/dρ_a dμ_b/dρ_b exceeds the square of dμ_a/dρ_b.
 [[nodiscard]] inline bool keeps_together(const coexistence& c, const std::array<double, 2>& rho) noexcept {
   const double w = c.common / (rho[0] + rho[1]);
@@ -195,21 +165,22 @@ template <std::size_t N>
       const double gas = r[0] + r[1];
       const double liquid = r[2] + r[3];
       const double common = w * std::log(gas / liquid);
-      std::array<double, 4> f{x[0] + k * r[1] - x[2] - k * r[3] + common, x[1] + k * r[0] - x[3] - k * r[2] + common,
-                              pressure_of(c, {r[0], r[1]}) - rest - gas_share * p,
-                              pressure_of(c, {r[2], r[3]}) - rest + (1 - gas_share) * p};
-      const std::array<std::array<double, 4>, 4> slope{
-          {{1 + w * r[0] / gas, (k + w / gas) * r[1], -1 - w * r[2] / liquid, -(k + w / liquid) * r[3]},
-           {(k + w / gas) * r[0], 1 + w * r[1] / gas, -(k + w / liquid) * r[2], -1 - w * r[3] / liquid},
-           {r[0] * (1 + g * r[1]) / 3, r[1] * (1 + g * r[0]) / 3, 0, 0},
-           {0, 0, r[2] * (1 + g * r[3]) / 3, r[3] * (1 + g * r[2]) / 3}}};
-      if (!detail::eliminate(slope, f)) {
+      // d(equation)/d(unknown), and the equation itself
+      double a[4][5] = {{1 + w * r[0] / gas, (k + w / gas) * r[1], -1 - w * r[2] / liquid, -(k + w / liquid) * r[3],
+                         x[0] + k * r[1] - x[2] - k * r[3] + common},
+                        {(k + w / gas) * r[0], 1 + w * r[1] / gas, -(k + w / liquid) * r[2], -1 - w * r[3] / liquid,
+                         x[1] + k * r[0] - x[3] - k * r[2] + common},
+                        {r[0] * (1 + g * r[1]) / 3, r[1] * (1 + g * r[0]) / 3, 0, 0,
+                         pressure_of(c, {r[0], r[1]}) - rest - gas_share * p},
+                        {0, 0, r[2] * (1 + g * r[3]) / 3, r[3] * (1 + g * r[2]) / 3,
+                         pressure_of(c, {r[2], r[3]}) - rest + (1 - gas_share) * p}};
+      if (!tetrapore::detail::eliminate<4, 1, double>(a)) {
         return refused(coexistence_status::dissolved);
       }
       moved = 0;
       for (std::size_t i = 0; i < 4; ++i) {
-        x[i] -= f[i];
-        moved = std::max(moved, std::abs(f[i]));
+        x[i] -= a[i][4];
+        moved = std::max(moved, std::abs(a[i][4]));
       }
       if (!(moved < 0.5)) {  // a leap to other phases
         return refused(coexistence_status::dissolved);

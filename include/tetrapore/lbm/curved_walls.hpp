@@ -31,9 +31,9 @@ struct wall_cut {
 /// f_i(x) + (1 − 2q)/(1 + 2q) (f_i(x − c_i) − f_ī(x)), all after collision: a velocity that is linear along the link is
 /// 0 at the cut. Where a wall cuts the link on both sides of the node, a linear velocity would be 0 everywhere; such a
 /// link stays as bounce-back makes it, half-way.
-/// \par Domain  one component, a storage that keeps populations; a relaxation by two times (trt), or the wall moves with
+/// \par Domain  one component, a storage that keeps populations; by two relaxation times (trt), or the wall moves with
 ///              the viscosity
-/// \par Accuracy  second order in the width of a node, and first where links are cut on both sides; mass is conserved to
+/// \par Accuracy  second order in the width of a node, first where links are cut on both sides; mass is conserved to
 ///                the order of the scheme alone (1e-9 a step in porous media)
 /// \par Source  Ginzburg, Verhaeghe & d'Humières, Commun. Comput. Phys. 3, 427 (2008): central linear interpolation
 template <class Simulation>

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "tetrapore/core/eliminate.hpp"
 #include "tetrapore/geometry/status.hpp"
 #include "tetrapore/law/bridge/meniscus.hpp"
 #include "tetrapore/law/bridge/profile.hpp"
-
-#include <utility>
 
 /// \file
 /// The profile of a given gap and volume or suction: Newton's method on all four equations.
@@ -13,48 +12,6 @@
 
 namespace tetrapore::inline TETRAPORE_ABI {
 namespace detail {
-
-template <std::floating_point T, int Rows, int Columns>
-using matrix = T[static_cast<std::size_t>(Rows)][static_cast<std::size_t>(Columns)];
-
-/// Gaussian elimination with row pivoting of n equations with m right-hand sides, in place.
-template <int n, int m, std::floating_point T>
-[[nodiscard]] inline bool eliminate(matrix<T, n, n + m>& a) noexcept {
-  for (int i = 0; i < n; ++i) {
-    int pivot = i;
-    for (int r = i + 1; r < n; ++r) {
-      if (std::abs(a[r][i]) > std::abs(a[pivot][i])) {
-        pivot = r;
-      }
-    }
-    if (!(std::abs(a[pivot][i]) > T(0))) {
-      return false;
-    }
-    if (pivot != i) {
-      for (int c = i; c < n + m; ++c) {
-        std::swap(a[i][c], a[pivot][c]);
-      }
-    }
-    const T inverse = T(1) / a[i][i];
-    for (int r = i + 1; r < n; ++r) {
-      const T factor = a[r][i] * inverse;
-      for (int c = i + 1; c < n + m; ++c) {
-        a[r][c] -= factor * a[i][c];
-      }
-    }
-    a[i][i] = inverse;
-  }
-  for (int k = n; k < n + m; ++k) {
-    for (int i = n - 1; i >= 0; --i) {
-      T sum = a[i][k];
-      for (int c = i + 1; c < n; ++c) {
-        sum -= a[i][c] * a[c][k];
-      }
-      a[i][k] = sum * a[i][i];
-    }
-  }
-  return true;
-}
 
 /// What is asked: a gap, and a volume or a k.
 template <std::floating_point T>
