@@ -119,6 +119,32 @@ struct mixture {
       detail::repeat<sites>([&]<int I>(detail::number<I> i) TETRAPORE_INLINE { give(c, i, f[I]); });
     });
   }
+  /// The same of a node of a reservoir: the equilibrium of given densities at the velocity of what came in.
+  template <class R, class Moment, class Give>
+  [[gnu::always_inline]] void depart_held(const R (&rho)[Components], Moment moment, Give give) const noexcept {
+    R mass(0);
+    R velocity[3]{R(0), R(0), R(0)};
+    detail::repeat<count>([&]<int C>(detail::number<C> c) TETRAPORE_INLINE {
+      mass = mass + (detail::constant<R>(reference[static_cast<std::size_t>(C)]) + moment(c, detail::number<0>{}));
+      detail::repeat<axes>([&]<int A>(detail::number<A>)
+                               TETRAPORE_INLINE { velocity[A] = velocity[A] + moment(c, detail::number<1 + A>{}); });
+    });
+    const R inverse = R(1) / mass;
+    for (R& u : velocity) {
+      u = u * inverse;
+    }
+    detail::repeat<count>([&]<int C>(detail::number<C> c) TETRAPORE_INLINE {
+      relaxation_target<R> t;
+      t.rho = rho[C];
+      t.excess = rho[C] - detail::constant<R>(reference[static_cast<std::size_t>(C)]);
+      for (int a = 0; a < 3; ++a) {
+        t.velocity[a] = velocity[a];
+      }
+      R f[directions];
+      fill<R>(t, f);
+      detail::repeat<sites>([&]<int I>(detail::number<I> i) TETRAPORE_INLINE { give(c, i, f[I]); });
+    });
+  }
   /// The moments of what streams into a node, as above.
   template <class R, class Take, class Give>
   [[gnu::always_inline]] static void arrive(Take take, Give give) noexcept {

@@ -15,7 +15,9 @@
 ///
 /// With one relaxation time of 1 what leaves a node is the equilibrium: a function of density and velocity. So a step
 /// works out what leaves the nodes of a plane, keeps that of three planes in the cache, and sums what arrives in the
-/// middle one. Only moments are read from and written to memory.
+/// middle one. Only moments are read from and written to memory. Where planes are large a step goes through the box
+/// strip by strip, each of so few rows that its planes fit in the cache; what leaves the rows beside a strip is worked
+/// out twice.
 
 namespace tetrapore::inline TETRAPORE_ABI {
 namespace lbm {
@@ -36,34 +38,28 @@ class simulation<Model, T, storage::moments, Lanes> : public detail::surrounding
   using typename base::lattice_type;
 
   /// All nodes at the mixture's reference densities, at rest; walls and reservoirs show them too.
-  simulation(const Model& model, site_map<lattice_type> map) : base(model, std::move(map), true, width) {
+  /// \param in_cache  bytes that what leaves the planes in use may take: a share of the last cache
+  simulation(const Model& model, site_map<lattice_type> map, std::size_t in_cache = std::size_t{3} << 20U)
+      : base(model, std::move(map), width) {
     for (const auto& c : model_.collisions) {
       if (c.tau != 1) {
         throw parameter_error("collision", "tau = " + short_number(c.tau), "1 where moments alone are kept");
       }
     }
-    constexpr std::size_t room = 4 * beyond;
-    state_step_ = apart(rows_.cells() + room);
-    state_.assign(components * moments * state_step_ + beyond, T(0));
-    std::size_t most = 0;
-    for (const auto& p : rows_.planes()) {
-      most = std::max(most, static_cast<std::size_t>(p.last_cell - p.first_cell));
-    }
-    plane_step_ = (most + room) / per_line * per_line;
-    sent_step_ = apart(buffers * plane_step_);
-    sent_.assign(components * directions * sent_step_ + beyond, T(0));
-    for (const auto& l : rows_.links()) {
-      links_.push_back({buffered(l.cell), buffered(l.gate)});
-    }
-    for (std::size_t x = 0; x < map_.plane_count(); ++x) {
-      for (std::size_t r = rows_.planes()[x].first_run; r < rows_.planes()[x].last_run; ++r) {
-        senders_.push_back(senders_of(x, rows_.runs()[r]));
-      }
-    }
-    make_held();
+    place_nodes();
+    cut_strips(in_cache);
   }
 
   [[nodiscard]] std::size_t steps() const noexcept { return steps_; }
+
+  void set_wall(std::uint8_t tag, const densities& rho) {
+    base::set_wall(tag, rho);
+    stale_ = true;
+  }
+  void set_reservoir(std::uint8_t tag, const densities& rho) {
+    base::set_reservoir(tag, rho);
+    stale_ = true;
+  }
 
   /// Densities and velocity of every node: `of(place, rho, u)` fills them. Populations become the equilibrium.
   template <class Of>
@@ -77,13 +73,21 @@ class simulation<Model, T, storage::moments, Lanes> : public detail::surrounding
   }
 
   void step() {
-    for (std::size_t c = 0; stale_ && c < components; ++c) {
-      for (std::size_t x = 0; x < map_.plane_count(); ++x) {
-        show(x, c);
+    if (stale_) {
+      show();
+      stale_ = false;
+    }
+    for (std::size_t c = 0; c < components; ++c) {
+      this->show_copies(c, 0, rows_.copies().size());
+    }
+    this->show_images(0, this->images_.size());
+    for (std::size_t k = 0; k < strips_.size(); ++k) {
+      sweep(strips_[k]);
+      if (k > 0) {
+        catch_up(strips_[k - 1].late);
       }
     }
-    stale_ = false;
-    sweep();
+    catch_up(early_);
     ++steps_;
   }
   void run(std::size_t times) {
@@ -98,10 +102,10 @@ class simulation<Model, T, storage::moments, Lanes> : public detail::surrounding
   /// momentum along axis k − 1.
   [[nodiscard]] T& moment(std::size_t component, std::size_t node, std::size_t k) noexcept {
     stale_ = true;
-    return state(component, k)[rows_.cell(node)];
+    return state_[place_of(component, node, k)];
   }
   [[nodiscard]] const T& moment(std::size_t component, std::size_t node, std::size_t k) const noexcept {
-    return state_[(component * moments + k) * state_step_ + static_cast<std::size_t>(rows_.cell(node))];
+    return state_[place_of(component, node, k)];
   }
 
   [[nodiscard]] double density(std::size_t component, std::size_t node) const noexcept {
@@ -142,6 +146,7 @@ class simulation<Model, T, storage::moments, Lanes> : public detail::surrounding
   }
 
  private:
+  using base::apart;
   using base::beyond;
   using base::map_;
   using base::model_;
@@ -152,202 +157,326 @@ class simulation<Model, T, storage::moments, Lanes> : public detail::surrounding
   using typename base::layout_type;
   using typename base::run_type;
   static constexpr int axes = lattice_type::dimensions;
+  static constexpr std::size_t numbers = components * moments;
   using number = pack<T, Lanes>;
 
-  /// Planes whose populations are kept: three in turn, the first and the last, which a periodic box needs at both ends
-  /// of a step.
-  static constexpr std::size_t buffers = 5;
+  /// Planes of which that is kept that leaves forward in x, and the rest.
+  static constexpr std::size_t forward_planes = 3;
+  static constexpr std::size_t other_planes = 2;
 
-  /// Nodes of a reservoir.
-  struct held_batch {
-    std::int32_t cell[width];
-    std::int32_t to[width];  ///< less the beginning of the plane's buffer
-    std::size_t used;
-    std::uint8_t tag;
+  /// A run whose nodes send.
+  struct departure {
+    std::int32_t cell, nodes, table;
+    std::int32_t farthest;  ///< the last cell that its first node sees
+    std::uint32_t state;
+    std::uint32_t to;  ///< less the beginnings of slot and plane
+    site what;
   };
-  using senders = std::array<std::uint32_t, directions>;
+  /// A run whose nodes receive, and where what arrives at its first node in each direction has left.
+  struct arrival {
+    std::int32_t cell, nodes;  ///< the cell whose ψ, and
+    std::uint32_t state;       ///< the batch whose moments change; those of late runs lie apart
+    site what;
+    bool late;
+    std::array<std::uint32_t, directions> from;
+  };
   /// What arrives from a cell that is no node, and where it has left.
   struct link {
     std::uint32_t cell;
     std::uint32_t from;
   };
+  /// What of all lists belongs to one plane of a strip.
+  struct strip_plane {
+    std::size_t first_departure, last_departure;
+    std::size_t first_arrival, last_arrival;
+    std::size_t first_link, last_link;
+  };
+  /// A run whose nodes get their new numbers when another strip has been swept that still needs the old ones.
+  struct late_run {
+    std::int32_t cell, nodes;
+    std::uint32_t state;
+    std::size_t apart;  ///< where the new numbers are, in batches
+  };
+  /// Rows that are swept together through all planes.
+  struct strip {
+    std::vector<strip_plane> planes;
+    std::vector<late_run> late;  ///< until the next strip has been swept
+  };
 
-  [[nodiscard]] T* state(std::size_t c, std::size_t k) noexcept {
-    return state_.data() + (c * moments + k) * state_step_;
+  /// So many batches ahead what is not in the cache is asked for.
+  static constexpr std::ptrdiff_t soon_batches = 8;
+  [[gnu::always_inline]] static void prefetch(const T* p) noexcept { __builtin_prefetch(p, 0, 2); }
+
+  [[nodiscard]] std::size_t place_of(std::size_t component, std::size_t node, std::size_t k) const noexcept {
+    const std::size_t at = batch_lane_[node];
+    return (at / width * numbers + component * moments + k) * width + at % width;
   }
-  /// At least so many numbers between arrays that are worked on together; they do not share a set of the cache.
-  [[nodiscard]] static constexpr std::size_t apart(std::size_t numbers) noexcept {
-    const std::size_t lines = numbers / per_line + 1;
-    return (lines + (27 + 64 - lines % 64) % 64) * per_line;
-  }
-  [[nodiscard]] std::size_t buffer_of(std::size_t x) const noexcept {
-    return (x == 0 ? 3 : x + 1 == map_.plane_count() ? 4 : x % 3) * plane_step_;
-  }
-  /// Where the population is kept while its plane is needed that leaves a cell against the one which the layout
-  /// stores at a place.
-  [[nodiscard]] std::uint32_t buffered(std::size_t place) const noexcept {
-    const auto slot = static_cast<std::size_t>(opposite(static_cast<int>(place / rows_.stride())));
-    const auto cell = static_cast<std::int32_t>(place % rows_.stride());
-    std::size_t x = 0;
-    while (cell >= rows_.planes()[x].last_cell) {
-      ++x;
-    }
-    return static_cast<std::uint32_t>(slot * sent_step_ + buffer_of(x) +
-                                      static_cast<std::size_t>(cell - rows_.planes()[x].first_cell));
+  [[nodiscard]] bool wraps(std::size_t axis) const noexcept { return map_.box().low[axis] == face_kind::periodic; }
+  [[nodiscard]] static constexpr std::size_t batches_of(std::int32_t nodes) noexcept {
+    return (static_cast<std::size_t>(nodes) + width - 1) / width;
   }
 
-  /// Where what arrives at the first node of a run of plane x in each direction has left.
-  [[nodiscard]] senders senders_of(std::size_t x, const run_type& run) const noexcept {
-    const auto& by = rows_.tables()[static_cast<std::size_t>(run.table)];
-    const auto planes = static_cast<int>(map_.plane_count());
-    const bool wrap = map_.box().low[0] == face_kind::periodic;
-    senders from{};
-    for (std::size_t k = 0; k < directions; ++k) {
-      const auto offset = static_cast<std::ptrdiff_t>(by.to[k]) -
-                          static_cast<std::ptrdiff_t>(by.as[k] * rows_.stride());  // of the cell in direction k
-      int there = static_cast<int>(x);
-      if (const int next = there + lattice_type::velocity[k][0]; offset != 0 && next >= 0 && next < planes) {
-        there = next;
-      } else if (offset != 0 && wrap) {
-        there = (next + planes) % planes;
+  /// The moments of a batch lie together, batches in the order of runs.
+  void place_nodes() {
+    std::vector<std::uint32_t> lane_of_cell(rows_.cells());
+    std::size_t batches = 0;
+    for (const run_type& run : rows_.runs()) {
+      state_of_run_.push_back(static_cast<std::uint32_t>(batches * width));
+      for (std::int32_t k = 0; k < run.nodes; ++k) {
+        lane_of_cell[static_cast<std::size_t>(run.cell + k)] =
+            static_cast<std::uint32_t>(batches * width) + static_cast<std::uint32_t>(k);
       }
-      const auto plane = static_cast<std::size_t>(there);
-      const auto slot = static_cast<std::size_t>(opposite(by.as[k]));
-      from[static_cast<std::size_t>(opposite(static_cast<int>(k)))] =
-          static_cast<std::uint32_t>(static_cast<std::ptrdiff_t>(slot * sent_step_ + buffer_of(plane)) + run.cell +
-                                     offset - rows_.planes()[plane].first_cell);
+      batches += batches_of(run.nodes);
     }
-    return from;
+    state_.assign(batches * numbers * width, T(0));
+    batch_lane_.resize(map_.size());
+    for (std::size_t n = 0; n < map_.size(); ++n) {
+      batch_lane_[n] = lane_of_cell[static_cast<std::size_t>(rows_.cell(n))];
+    }
   }
 
-  void make_held() {
-    held_of_.push_back(0);
+  /// The rows that the nodes of some rows of a plane receive from, in their order.
+  [[nodiscard]] std::vector<std::size_t> sending(std::size_t first, std::size_t last) const {
+    const auto count = static_cast<int>(rows_.rows_of_plane());
+    const bool around = wraps(rows_.across());
+    std::vector<std::size_t> rows;
+    for (int a = static_cast<int>(first) - 1; a <= static_cast<int>(last); ++a) {
+      if (around || (a >= 0 && a < count)) {
+        rows.push_back(static_cast<std::size_t>((a + count) % count));
+      }
+    }
+    std::sort(rows.begin(), rows.end());
+    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+    return rows;
+  }
+  [[nodiscard]] const typename layout_type::row_range& row(std::size_t x, std::size_t a) const noexcept {
+    return rows_.rows()[x * rows_.rows_of_plane() + a];
+  }
+  /// Where the cells of a plane's rows lie in the order of `rows`, less the cells; the last one: how many there are.
+  [[nodiscard]] std::vector<std::ptrdiff_t> shifts(std::size_t x, const std::vector<std::size_t>& rows) const {
+    std::vector<std::ptrdiff_t> by;
+    std::ptrdiff_t next = 0;
+    for (const std::size_t a : rows) {
+      const auto& r = row(x, a);
+      next += (r.first_cell - next) & static_cast<std::ptrdiff_t>(width - 1);  // as cells lie: to a multiple
+      by.push_back(next - r.first_cell);
+      next += r.last_cell - r.first_cell;
+    }
+    by.push_back(next);
+    return by;
+  }
+  [[nodiscard]] std::size_t most_cells(const std::vector<std::size_t>& rows) const {
+    std::ptrdiff_t most = 0;
     for (std::size_t x = 0; x < map_.plane_count(); ++x) {
-      std::vector<std::pair<std::uint8_t, std::int32_t>> all;
-      for (auto n = static_cast<std::size_t>(map_.plane_begin(x));
-           n < static_cast<std::size_t>(map_.plane_begin(x + 1)); ++n) {
-        if (map_.at(n).kind == site_kind::reservoir) {
-          all.emplace_back(map_.at(n).tag, rows_.cell(n));
-        }
-      }
-      std::sort(all.begin(), all.end());
-      for (std::size_t k = 0; k < all.size();) {
-        held_batch b{};
-        b.tag = all[k].first;
-        for (; b.used < width && k < all.size() && all[k].first == b.tag; ++k, ++b.used) {
-          b.cell[b.used] = all[k].second;
-          b.to[b.used] = all[k].second - rows_.planes()[x].first_cell;
-        }
-        for (std::size_t lane = b.used; lane < width; ++lane) {
-          b.cell[lane] = b.cell[0];
-        }
-        held_.push_back(b);
-      }
-      held_of_.push_back(held_.size());
+      most = std::max(most, shifts(x, rows).back());
     }
+    return static_cast<std::size_t>(most);
   }
 
-  void sweep() {
-    const std::size_t planes = map_.plane_count();
-    const bool wrap = map_.box().low[0] == face_kind::periodic;
-    for (std::size_t c = 0; c < components; ++c) {
-      T* const psi = this->psi(c);
-      for (const held_batch& h : held_) {
-        const auto shown = static_cast<T>(model_.potential(reservoirs_[h.tag][c]));
-        for (std::size_t lane = 0; lane < h.used; ++lane) {
-          psi[h.cell[lane]] = shown;
+  void cut_strips(std::size_t in_cache) {
+    static_assert((width & (width - 1)) == 0, "a batch is a power of two");
+    constexpr std::size_t per_cell =
+        sizeof(T) * components * (directions * other_planes + directions / 3 * (forward_planes - other_planes));
+    const std::size_t rows = rows_.rows_of_plane();
+    std::size_t count = 0;
+    std::size_t most = 0;
+    do {
+      ++count;
+      most = 0;
+      for (std::size_t k = 0; k < count; ++k) {
+        most = std::max(most, most_cells(sending(rows * k / count, rows * (k + 1) / count)));
+      }
+    } while (2 * (count + 1) <= rows && most * per_cell > in_cache);
+    plane_step_ = (most + 4 * beyond) / per_line * per_line;
+    sent_step_ = apart((forward_planes + 1) * plane_step_);
+    sent_.assign(components * directions * sent_step_ + beyond, T(0));
+    std::vector<std::uint32_t> row_of_cell(rows_.cells());
+    for (std::size_t r = 0; r < rows_.rows().size(); ++r) {
+      const auto& of = rows_.rows()[r];
+      std::fill(row_of_cell.begin() + of.first_cell, row_of_cell.begin() + of.last_cell, static_cast<std::uint32_t>(r));
+    }
+    std::size_t most_late = 0;  // of strips that wait for the next one: two at a time
+    for (std::size_t k = 1; k < count; ++k) {
+      most_late = std::max(most_late, batches_of_rows(rows * k / count - 2, rows * k / count));
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+      cut(rows * k / count, rows * (k + 1) / count, row_of_cell, k % 2 * most_late, 2 * most_late);
+    }
+    const std::size_t late = 2 * most_late + (count > 1 ? batches_of_rows(0, 2) : 0);
+    late_state_.assign(late * numbers * width, T(0));
+    late_psi_.assign(late * components * width, T(0));
+  }
+  [[nodiscard]] std::size_t batches_of_rows(std::size_t first, std::size_t last) const noexcept {
+    std::size_t batches = 0;
+    for (std::size_t x = 0; x < map_.plane_count(); ++x) {
+      for (std::size_t r = row(x, first).first_run; r < row(x, last - 1).last_run; ++r) {
+        batches += batches_of(rows_.runs()[r].nodes);
+      }
+    }
+    return batches;
+  }
+  /// Rows first … last − 1. The last two are needed as they were by the next strip, the first two of all by the last
+  /// one of a box that is periodic there.
+  void cut(std::size_t first, std::size_t last, const std::vector<std::uint32_t>& row_of_cell, std::size_t late_at,
+           std::size_t early_at) {
+    const std::size_t rows = rows_.rows_of_plane();
+    const std::vector<std::size_t> from = sending(first, last);
+    std::vector<std::ptrdiff_t> shift(rows_.rows().size());
+    for (std::size_t x = 0; x < map_.plane_count(); ++x) {
+      const auto by = shifts(x, from);
+      for (std::size_t a = 0; a < from.size(); ++a) {
+        shift[x * rows + from[a]] = by[a];
+      }
+    }
+    const auto place_from = [&](std::size_t place) {  // what the layout stores there has left against it
+      const auto slot = static_cast<std::size_t>(opposite(static_cast<int>(place / rows_.stride())));
+      const std::size_t cell = place % rows_.stride();
+      const std::size_t r = row_of_cell[cell];
+      return static_cast<std::uint32_t>(static_cast<std::ptrdiff_t>(slot * sent_step_ + plane_of(slot, r / rows)) +
+                                        static_cast<std::ptrdiff_t>(cell) + shift[r]);
+    };
+    strip s;
+    for (std::size_t x = 0; x < map_.plane_count(); ++x) {
+      strip_plane p{departures_.size(), 0, arrivals_.size(), 0, links_.size(), 0};
+      for (const std::size_t a : from) {
+        for (std::size_t r = row(x, a).first_run; r < row(x, a).last_run; ++r) {
+          const run_type& run = rows_.runs()[r];
+          const auto& seen = rows_.tables()[static_cast<std::size_t>(run.table)].seen;
+          departures_.push_back({run.cell, run.nodes, run.table, run.cell + *std::max_element(seen.begin(), seen.end()),
+                                 state_of_run_[r], static_cast<std::uint32_t>(run.cell + shift[x * rows + a]),
+                                 run.what});
         }
       }
-      this->show_copies(c, 0, rows_.copies().size());
+      for (std::size_t a = first; a < last; ++a) {
+        const bool early = first == 0 && a < 2 && last < rows && wraps(rows_.across());
+        const bool late = last < rows && a + 2 >= last;
+        for (std::size_t r = row(x, a).first_run; r < row(x, a).last_run; ++r) {
+          const run_type& run = rows_.runs()[r];
+          const auto& by = rows_.tables()[static_cast<std::size_t>(run.table)];
+          arrival to{run.cell, run.nodes, state_of_run_[r], run.what, early || late, {}};
+          if (to.late) {
+            std::size_t& at = early ? early_at : late_at;
+            (early ? early_ : s.late).push_back({run.cell, run.nodes, to.state, at});
+            to.state = static_cast<std::uint32_t>(at * width);
+            at += batches_of(run.nodes);
+          }
+          for (std::size_t k = 0; k < directions; ++k) {
+            to.from[static_cast<std::size_t>(opposite(static_cast<int>(k)))] =
+                place_from(static_cast<std::size_t>(by.to[k] + static_cast<std::int64_t>(rows_.place(run.cell, 0))));
+          }
+          arrivals_.push_back(to);
+        }
+        for (std::size_t l = row(x, a).first_link; l < row(x, a).last_link; ++l) {
+          links_.push_back({place_from(rows_.links()[l].cell), place_from(rows_.links()[l].gate)});
+        }
+      }
+      p.last_departure = departures_.size();
+      p.last_arrival = arrivals_.size();
+      p.last_link = links_.size();
+      s.planes.push_back(p);
     }
-    this->show_images(0, this->images_.size());
-    if (wrap) {
-      send(planes - 1);
+    strips_.push_back(std::move(s));
+  }
+  /// Where what leaves a plane lies in a slot. A periodic box needs its first and last plane at both ends of a sweep.
+  [[nodiscard]] std::size_t plane_of(std::size_t slot, std::size_t x) const noexcept {
+    const int ahead = lattice_type::velocity[slot][0];
+    std::size_t order = ahead > 0 ? x % forward_planes : x % other_planes;
+    if (wraps(0) && x + 1 == map_.plane_count()) {
+      order = forward_planes;
+    } else if (wraps(0) && x == 0 && ahead < 0) {
+      order = other_planes;
+    }
+    return order * plane_step_;
+  }
+
+  void sweep(const strip& s) {
+    const std::size_t planes = s.planes.size();
+    if (wraps(0)) {
+      send(s.planes[planes - 1], planes - 1);
     }
     std::size_t sent = 0;
     for (std::size_t x = 0; x < planes; ++x) {
       for (; sent < std::min(x + 2, planes); ++sent) {
-        if (!(wrap && sent + 1 == planes)) {
-          send(sent);
+        if (!(wraps(0) && sent + 1 == planes)) {
+          send(s.planes[sent], sent);
         }
       }
-      receive(x);
+      receive(s.planes[x]);
+    }
+  }
+  /// New numbers that had to wait.
+  void catch_up(const std::vector<late_run>& runs) {
+    for (const late_run& run : runs) {
+      const std::size_t batches = batches_of(run.nodes);
+      std::copy_n(late_state_.data() + run.apart * width * numbers, batches * width * numbers,
+                  state_.data() + run.state * numbers);
+      for (std::size_t c = 0; c < components; ++c) {
+        std::copy_n(late_psi_.data() + (run.apart * components + c * batches) * width, run.nodes,
+                    this->psi(c) + run.cell);
+      }
     }
   }
 
   /// What leaves the nodes of a plane. Numbers beyond the end of a run are nobody's or written later.
-  void send(std::size_t x) {
-    const auto& p = rows_.planes()[x];
+  void send(const strip_plane& p, std::size_t x) {
     const Model model = model_;
     const std::size_t sent_step = sent_step_;
-    const std::size_t state_step = state_step_;
-    for (std::size_t r = p.first_run; r < p.last_run; ++r) {
-      const run_type& run = rows_.runs()[r];
+    const std::size_t psi_step = this->psi_step();
+    const T* const psi = this->psi(0);
+    T* const back = sent_.data() + plane_of(2, x);
+    T* const beside = sent_.data() + plane_of(0, x);
+    T* const ahead = sent_.data() + plane_of(1, x);
+    for (std::size_t r = p.first_departure; r < p.last_departure; ++r) {
+      const departure& run = departures_[r];
       const auto& by = rows_.tables()[static_cast<std::size_t>(run.table)];
-      const T* seen[components][directions];
-      for (std::size_t c = 0; c < components; ++c) {
-        const T* const psi = this->psi(c) + run.cell;
-        for (std::size_t k = 0; k < directions; ++k) {
-          seen[c][k] = psi + by.seen[k];
+      const T* const from = state_.data() + run.state * numbers;
+      T* const to[3] = {back + run.to, beside + run.to, ahead + run.to};
+      const auto moment_at = [&](std::ptrdiff_t n) TETRAPORE_INLINE {
+        return [from, n]<int C, int K>(detail::number<C>, detail::number<K>) TETRAPORE_INLINE {
+          return number::load(from + n * static_cast<std::ptrdiff_t>(numbers) + (C * moments + K) * width);
+        };
+      };
+      const auto give_at = [&](std::ptrdiff_t n) TETRAPORE_INLINE {
+        return [&to, sent_step, n]<int C, int I>(detail::number<C>, detail::number<I>, const number& value)
+                   TETRAPORE_INLINE {
+                     value.store(to[1 + lattice_type::velocity[I][0]] +
+                                 (static_cast<std::size_t>(C) * directions + I) * sent_step + n);
+                   };
+      };
+      if (run.what.kind == site_kind::reservoir) {
+        number rho[components];
+        for (std::size_t c = 0; c < components; ++c) {
+          rho[c] = number(static_cast<T>(reservoirs_[run.what.tag][c]));
         }
+        for (std::ptrdiff_t n = 0; n < run.nodes; n += Lanes) {
+          model.template depart_held<number>(rho, moment_at(n), give_at(n));
+        }
+        continue;
       }
-      const T* const from = state_.data() + run.cell;
-      T* const to = sent_.data() + buffer_of(x) + (run.cell - p.first_cell);
+      const T* seen[directions];
+      for (std::size_t k = 0; k < directions; ++k) {
+        seen[k] = psi + run.cell + by.seen[k];
+      }
       for (std::ptrdiff_t n = 0; n < run.nodes; n += Lanes) {
-        model.template depart<number>(
-            [&]<int C, int K>(detail::number<C>, detail::number<K>) TETRAPORE_INLINE {
-              return number::load(from + (static_cast<std::size_t>(C) * moments + K) * state_step + n);
-            },
-            [&]<int C, int I>(detail::number<C>, detail::number<I>)
-                TETRAPORE_INLINE { return number::load(seen[C][I] + n); },
-            [&]<int C, int I>(detail::number<C>, detail::number<I>, const number& value)
-                TETRAPORE_INLINE { value.store(to + (static_cast<std::size_t>(C) * directions + I) * sent_step + n); });
-      }
-    }
-    for (std::size_t h = held_of_[x]; h < held_of_[x + 1]; ++h) {
-      hold(held_[h], sent_.data() + buffer_of(x));
-    }
-  }
-  /// What leaves nodes of a reservoir: its densities at the velocity of what came in.
-  void hold(const held_batch& b, T* sent) {
-    alignas(detail::cache_line) T row[width];
-    const auto gather = [&](const T* from) {
-      for (std::size_t lane = 0; lane < width; ++lane) {
-        row[lane] = from[b.cell[lane]];
-      }
-      return number::load(row);
-    };
-    number mass(T(0));
-    number carried[3]{number(T(0)), number(T(0)), number(T(0))};
-    for (std::size_t c = 0; c < components; ++c) {
-      mass = mass + (number(static_cast<T>(model_.reference[c])) + gather(state(c, 0)));
-      for (std::size_t a = 0; a < axes; ++a) {
-        carried[a] = carried[a] + gather(state(c, 1 + a));
-      }
-    }
-    const number inverse = number(T(1)) / mass;
-    for (std::size_t c = 0; c < components; ++c) {
-      relaxation_target<number> t;
-      t.rho = number(static_cast<T>(reservoirs_[b.tag][c]));
-      t.excess = t.rho - number(static_cast<T>(model_.reference[c]));
-      for (std::size_t a = 0; a < 3; ++a) {
-        t.velocity[a] = carried[a] * inverse;
-      }
-      number f[directions];
-      Model::fill(t, f);
-      for (std::size_t i = 0; i < directions; ++i) {
-        f[i].store(row);
-        T* const to = sent + (c * directions + i) * sent_step_;
-        for (std::size_t lane = 0; lane < b.used; ++lane) {
-          to[b.to[lane]] = row[lane];
+        const T* const soon = from + (n + soon_batches * Lanes) * static_cast<std::ptrdiff_t>(numbers);
+        for (std::size_t k = 0; k < numbers; ++k) {
+          prefetch(soon + k * width);
         }
+        for (std::size_t c = 0; c < components; ++c) {
+          prefetch(psi + c * psi_step + run.farthest + n + soon_batches * Lanes);
+        }
+        model.template depart<number>(
+            moment_at(n),
+            [&]<int C, int I>(detail::number<C>, detail::number<I>)
+                TETRAPORE_INLINE { return number::load(seen[I] + n + C * psi_step); },
+            give_at(n));
       }
     }
   }
 
   /// The moments of what arrives in a plane, and ψ.
-  void receive(std::size_t x) {
-    const auto& p = rows_.planes()[x];
+  void receive(const strip_plane& p) {
+    const Model model = model_;
     for (std::size_t c = 0; c < components; ++c) {
       T* const f = sent_.data() + c * directions * sent_step_;
       for (std::size_t k = p.first_link; k < p.last_link; ++k) {
@@ -355,69 +484,79 @@ class simulation<Model, T, storage::moments, Lanes> : public detail::surrounding
       }
     }
     const std::size_t component_step = directions * sent_step_;
-    const std::size_t state_step = state_step_;
-    for (std::size_t r = p.first_run; r < p.last_run; ++r) {
-      const run_type& run = rows_.runs()[r];
+    for (std::size_t r = p.first_arrival; r < p.last_arrival; ++r) {
+      const arrival& run = arrivals_[r];
       const T* from[directions];
       for (std::size_t i = 0; i < directions; ++i) {
-        from[i] = sent_.data() + senders_[r][i];
+        from[i] = sent_.data() + run.from[i];
       }
-      T* const to = state_.data() + run.cell;
-      const auto all = [&](std::ptrdiff_t n, auto give) TETRAPORE_INLINE {
+      T* const to = (run.late ? late_state_ : state_).data() + run.state * numbers;
+      T* shown[components];
+      for (std::size_t c = 0; c < components; ++c) {
+        shown[c] = run.late ? late_psi_.data() + run.state * components + c * batches_of(run.nodes) * width
+                            : this->psi(c) + run.cell;
+      }
+      for (std::ptrdiff_t n = 0; n < run.nodes; n += Lanes) {
+        number psi[components];
         Model::template arrive<number>(
             [&]<int C, int I>(detail::number<C>, detail::number<I>)
                 TETRAPORE_INLINE { return number::load(from[I] + n + static_cast<std::size_t>(C) * component_step); },
-            give);
-      };
-      std::ptrdiff_t n = 0;
-      for (; n + Lanes <= run.nodes; n += Lanes) {
-        all(n, [&]<int C, int K>(detail::number<C>, detail::number<K>, const number& value) TETRAPORE_INLINE {
-          value.store(to + (static_cast<std::size_t>(C) * moments + K) * state_step + n);
-        });
+            [&]<int C, int K>(detail::number<C>, detail::number<K>, const number& value) TETRAPORE_INLINE {
+              value.store(to + n * static_cast<std::ptrdiff_t>(numbers) + (C * moments + K) * width);
+              if constexpr (K == 0) {
+                psi[C] = model.potential(number(static_cast<T>(model.reference[C])) + value);
+              }
+            });
+        for (std::size_t c = 0; c < components; ++c) {
+          if (run.nodes - n < Lanes) {
+            psi[c] = number::select(base::lanes_of(run.nodes - n), psi[c], number::load(shown[c] + n));
+          }
+          psi[c].store(shown[c] + n);
+        }
       }
-      if (n < run.nodes) {
-        const std::uint32_t lanes = base::lanes_of(run.nodes - n);
-        all(n, [&]<int C, int K>(detail::number<C>, detail::number<K>, const number& value) TETRAPORE_INLINE {
-          T* const last = to + (static_cast<std::size_t>(C) * moments + K) * state_step + n;
-          number::select(lanes, value, number::load(last)).store(last);
-        });
+      if (run.what.kind == site_kind::reservoir) {
+        for (std::size_t c = 0; c < components; ++c) {
+          std::fill_n(shown[c], run.nodes, shown_by(run.what.tag, c));
+        }
       }
-    }
-    for (std::size_t c = 0; c < components; ++c) {
-      show(x, c);
     }
   }
-  /// ψ of the nodes of a plane.
-  void show(std::size_t x, std::size_t c) {
-    const auto& p = rows_.planes()[x];
-    const number reference(static_cast<T>(model_.reference[c]));
-    const auto potential = model_.potential;
-    for (std::size_t r = p.first_run; r < p.last_run; ++r) {
-      const run_type& run = rows_.runs()[r];
-      T* const psi = this->psi(c) + run.cell;
-      const T* const excess = state(c, 0) + run.cell;
-      std::ptrdiff_t n = 0;
-      for (; n + Lanes <= run.nodes; n += Lanes) {
-        potential(reference + number::load(excess + n)).store(psi + n);
-      }
-      if (n < run.nodes) {
-        const number shown = potential(reference + number::load(excess + n));
-        number::select(base::lanes_of(run.nodes - n), shown, number::load(psi + n)).store(psi + n);
+  /// ψ of a reservoir.
+  [[nodiscard]] T shown_by(std::uint8_t tag, std::size_t c) const noexcept {
+    return static_cast<T>(model_.potential(reservoirs_[tag][c]));
+  }
+
+  /// ψ of all nodes from their moments, and that of walls.
+  void show() {
+    for (std::size_t c = 0; c < components; ++c) {
+      for (std::size_t r = 0; r < rows_.runs().size(); ++r) {
+        const run_type& run = rows_.runs()[r];
+        for (std::int32_t n = 0; n < run.nodes; ++n) {
+          const std::size_t at = state_of_run_[r] + static_cast<std::size_t>(n);
+          const T excess = state_[(at / width * numbers + c * moments) * width + at % width];
+          this->psi(c)[run.cell + n] = run.what.kind == site_kind::reservoir
+                                           ? shown_by(run.what.tag, c)
+                                           : model_.potential(static_cast<T>(model_.reference[c]) + excess);
+        }
       }
     }
   }
 
   std::size_t steps_ = 0;
-  bool stale_ = true;  ///< whether ψ has to be worked out from the moments
-  std::size_t state_step_ = 0;
+  bool stale_ = true;  ///< whether ψ has to be worked out from moments, walls and reservoirs
   std::size_t plane_step_ = 0;
   std::size_t sent_step_ = 0;
-  detail::aligned_vector<T> state_;  ///< moments of all cells, one behind the other, component by component
-  detail::aligned_vector<T> sent_;   ///< populations that have left the planes in use, likewise
-  std::vector<senders> senders_;     ///< of each run
+  detail::aligned_vector<T> state_;          ///< the moments of a batch side by side
+  std::vector<std::uint32_t> state_of_run_;  ///< where its nodes are in the order of batches
+  std::vector<std::uint32_t> batch_lane_;    ///< the same of each node
+  detail::aligned_vector<T> sent_;           ///< populations that have left the planes in use, slot by slot
+  std::vector<strip> strips_;
+  detail::aligned_vector<T> late_state_;  ///< moments of late runs
+  detail::aligned_vector<T> late_psi_;    ///< ψ of late runs, component by component
+  std::vector<late_run> early_;           ///< those that wait until the last strip has been swept
+  std::vector<departure> departures_;
+  std::vector<arrival> arrivals_;
   std::vector<link> links_;
-  std::vector<held_batch> held_;
-  std::vector<std::size_t> held_of_;  ///< where the batches of each plane begin
 };
 
 }  // namespace lbm

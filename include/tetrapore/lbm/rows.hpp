@@ -17,8 +17,8 @@
 /// Where nodes and what surrounds them lie in memory.
 ///
 /// A cell is a node, or a place that some node's population leaves to without being one: in a wall, beyond a mirror,
-/// beyond an end of the box. Cells of a row (z runs; y in a lattice of one layer) lie side by side, so the neighbours
-/// of side by side nodes do too, walls or none, and a step runs along rows without asking. What lies in a cell that is
+/// beyond an end of the box. Cells of a row (z runs, or y where that makes fewer batches) lie side by side, so the
+/// neighbours of side by side nodes do too, walls or none, and a step runs along rows without asking. What lies in a cell that is
 /// no node belongs to one link: it is copied from and to where the link really leads.
 
 namespace tetrapore::inline TETRAPORE_ABI {
@@ -33,11 +33,12 @@ class row_layout {
   using places = std::array<std::int64_t, directions>;
   using offsets = std::array<std::int32_t, directions>;
 
-  /// Nodes side by side.
+  /// Nodes side by side, all fluid or all of one reservoir.
   struct run {
     std::int32_t cell;  ///< of the first node
     std::int32_t nodes;
     std::int32_t table;  ///< of the neighbours
+    site what;
   };
   /// In direction k of a run's first node: where what leaves arrives, less the place of the node's slot 0; which cell
   /// it sees, less its own.
@@ -73,19 +74,26 @@ class row_layout {
     std::size_t first_run, last_run;
     std::size_t first_link, last_link;
     std::size_t first_copy, last_copy;
-    std::int32_t first_cell, last_cell;  ///< the first one or, so that it is a multiple, cells before it
+  };
+  /// The same of nodes of one row, and its cells.
+  struct row_range {
+    std::size_t first_run, last_run;
+    std::size_t first_link, last_link;
+    std::int32_t first_cell, last_cell;
   };
 
   row_layout() = default;
   /// \param lanes  so many cells beyond a run may be read and written as they were
-  /// \param through_reservoirs  whether runs lead through nodes of reservoirs
   /// \param aligned  the first nodes of rows stand at multiples of this
-  row_layout(const site_map<L>& map, std::size_t lanes, std::size_t per_cache_line, bool through_reservoirs,
-             std::size_t aligned)
-      : map_(&map), lanes_(lanes), through_(through_reservoirs), aligned_(aligned) {
-    along_ = map.box().size[2] == 1 ? 1 : 2;
-    across_ = 3 - along_;
-    length_ = static_cast<std::size_t>(map.box().size[along_]) + 2;
+  row_layout(const site_map<L>& map, std::size_t lanes, std::size_t per_cache_line, std::size_t aligned)
+      : map_(&map), lanes_(lanes), aligned_(aligned) {
+    lay_along(2);
+    if (const std::size_t batches = batches_of_runs(); map.box().size[1] > 1) {
+      lay_along(1);
+      if (batches_of_runs() >= batches && map.box().size[2] > 1) {
+        lay_along(2);
+      }
+    }
     mark_cells();
     number_cells(per_cache_line);
     for (std::size_t x = 0; x < map.plane_count(); ++x) {
@@ -117,6 +125,11 @@ class row_layout {
   /// Nodes of the longest run.
   [[nodiscard]] std::size_t longest() const noexcept { return longest_; }
   [[nodiscard]] const std::vector<plane>& planes() const noexcept { return planes_; }
+  /// Rows of one x lie behind each other.
+  [[nodiscard]] const std::vector<row_range>& rows() const noexcept { return rows_; }
+  [[nodiscard]] std::size_t rows_of_plane() const noexcept { return rows_.size() / planes_.size(); }
+  /// The axis that separates rows of one x.
+  [[nodiscard]] std::size_t across() const noexcept { return across_; }
   [[nodiscard]] const std::vector<run>& runs() const noexcept { return runs_; }
   [[nodiscard]] const std::vector<neighbours>& tables() const noexcept { return tables_; }
   [[nodiscard]] const std::vector<link>& links() const noexcept { return links_; }
@@ -218,47 +231,82 @@ class row_layout {
     content_.assign(count_, false);
   }
 
-  void add_plane(std::size_t x) {
-    const auto align = static_cast<std::int32_t>(aligned_);
-    plane p{runs_.size(), 0, links_.size(), 0, 0, 0, cell_of_row(x) / align * align, cell_of_row(x + 1)};
-    const auto end = static_cast<std::size_t>(map_->plane_begin(x + 1));
-    for (auto n = static_cast<std::size_t>(map_->plane_begin(x)); n < end;) {
-      if (!belongs(n)) {
-        ++n;
+  void lay_along(std::size_t axis) noexcept {
+    along_ = axis;
+    across_ = 3 - axis;
+    length_ = static_cast<std::size_t>(map_->box().size[along_]) + 2;
+  }
+  /// f(first node's place, nodes, what they are) for the runs of a row.
+  template <class F>
+  void for_runs_of(int x, int a, F f) const {
+    std::array<int, 3> p{};
+    p[0] = x;
+    p[across_] = a;
+    int& at = p[along_];
+    const int end = map_->box().size[along_];
+    while (at < end) {
+      const std::int32_t n = node_at(p);
+      if (n == none) {
+        ++at;
         continue;
       }
-      std::size_t upto = n + 1;
-      while (upto < end && belongs(upto) && follows(upto)) {
-        ++upto;
+      const auto first = p;
+      const site what = map_->at(static_cast<std::size_t>(n));
+      do {
+        ++at;
+      } while (at < end && is(node_at(p), what));
+      f(first, at - first[along_], what);
+    }
+  }
+  /// The node at a place; `none` where there is a wall or an image.
+  [[nodiscard]] std::int32_t node_at(const std::array<int, 3>& p) const noexcept {
+    const std::int32_t n = map_->node_at(p[0], p[1], p[2]);
+    const auto k = static_cast<std::size_t>(n);
+    return n != none && k < map_->size() && map_->place(k) == p ? n : none;
+  }
+  [[nodiscard]] bool is(std::int32_t node, const site& what) const noexcept {
+    if (node == none) {
+      return false;
+    }
+    const site found = map_->at(static_cast<std::size_t>(node));
+    return found.kind == what.kind && (what.kind == site_kind::fluid || found.tag == what.tag);
+  }
+  [[nodiscard]] std::size_t batches_of_runs() const {
+    std::size_t batches = 0;
+    for (int x = 0; x < map_->box().size[0]; ++x) {
+      for (int a = 0; a < map_->box().size[across_]; ++a) {
+        for_runs_of(x, a, [&](const auto&, int nodes, site) {
+          batches += (static_cast<std::size_t>(nodes) + lanes_ - 1) / lanes_;
+        });
       }
-      add_run(n, upto);
-      n = upto;
+    }
+    return batches;
+  }
+
+  void add_plane(std::size_t x) {
+    plane p{runs_.size(), 0, links_.size(), 0, 0, 0};
+    const auto length = static_cast<std::ptrdiff_t>(length_);
+    for (int a = 0; a < map_->box().size[across_]; ++a) {
+      const auto r = static_cast<std::ptrdiff_t>(rows_.size());
+      row_range of{runs_.size(), 0, links_.size(), 0, 0, 0};
+      for (auto k = at_.begin() + r * length; k != at_.begin() + (r + 1) * length; ++k) {
+        if (*k != none) {
+          of.first_cell = of.first_cell == of.last_cell ? *k : of.first_cell;
+          of.last_cell = *k + 1;
+        }
+      }
+      for_runs_of(static_cast<int>(x), a,
+                  [&](const std::array<int, 3>& first, int nodes, site what) { add_run(first, nodes, what); });
+      of.last_run = runs_.size();
+      of.last_link = links_.size();
+      rows_.push_back(of);
     }
     p.last_run = runs_.size();
     p.last_link = links_.size();
     planes_.push_back(p);
   }
-  /// The first cell at or behind the beginning of a plane.
-  [[nodiscard]] std::int32_t cell_of_row(std::size_t x) const noexcept {
-    for (std::size_t k = x * static_cast<std::size_t>(map_->box().size[across_]) * length_; k < at_.size(); ++k) {
-      if (at_[k] != none) {
-        return at_[k];
-      }
-    }
-    return idle();
-  }
-  [[nodiscard]] bool belongs(std::size_t n) const noexcept {
-    return through_ || map_->at(n).kind != site_kind::reservoir;
-  }
-  [[nodiscard]] bool follows(std::size_t n) const noexcept {
-    auto p = map_->place(n - 1);
-    ++p[along_];
-    return p == map_->place(n);
-  }
-
-  void add_run(std::size_t first, std::size_t last) {
-    const auto& p = map_->place(first);
-    const std::int32_t cell = cells_[first];
+  void add_run(const std::array<int, 3>& p, int nodes, site what) {
+    const std::int32_t cell = at(row_of(p), p[along_]);
     neighbours by{};
     for (int k = 0; k < static_cast<int>(directions); ++k) {
       const beyond b = look(p, k);
@@ -267,8 +315,10 @@ class row_layout {
       by.to[d] = static_cast<std::int64_t>(place(there, slot(b.as))) - static_cast<std::int64_t>(place(cell, 0));
       by.seen[d] = b.wall ? face() - cell : there - cell;
       by.as[d] = static_cast<std::uint8_t>(b.as);
-      for (std::size_t n = first; n < last && k != 0; ++n) {
-        const auto virtual_cell = there + static_cast<std::int32_t>(n - first);
+      auto q = p;
+      for (int j = 0; j < nodes && k != 0; ++j, ++q[along_]) {
+        const auto n = static_cast<std::size_t>(node_at(q));
+        const std::int32_t virtual_cell = there + j;
         const std::size_t virtual_place = place(virtual_cell, slot(b.as));
         const std::size_t really = gate(map_->leaving(n, k));
         if (really != virtual_place) {
@@ -283,8 +333,8 @@ class row_layout {
     if (known.second) {
       tables_.push_back(by);
     }
-    runs_.push_back({cell, static_cast<std::int32_t>(last - first), known.first->second});
-    longest_ = std::max(longest_, last - first);
+    runs_.push_back({cell, nodes, known.first->second, what});
+    longest_ = std::max(longest_, static_cast<std::size_t>(nodes));
   }
 
   /// What a cell that is no node shows, the first time that it is seen; planes see in the order of x.
@@ -318,7 +368,6 @@ class row_layout {
 
   const site_map<L>* map_ = nullptr;  ///< while the layout is made
   std::size_t lanes_ = 0;
-  bool through_ = false;
   std::size_t aligned_ = 1;
   std::size_t along_ = 2;   ///< the axis of rows
   std::size_t across_ = 1;  ///< the other one of a plane
@@ -338,6 +387,7 @@ class row_layout {
   std::vector<wall> walls_;
   std::vector<image> images_;
   std::vector<plane> planes_;
+  std::vector<row_range> rows_;
 };
 
 }  // namespace lbm

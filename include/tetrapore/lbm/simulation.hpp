@@ -41,12 +41,11 @@ class simulation : public detail::surroundings<Model, T, Lanes, Storage == stora
   using typename base::lattice_type;
 
   /// All nodes at the mixture's reference densities, at rest; walls and reservoirs show them too.
-  simulation(const Model& model, site_map<lattice_type> map) : base(model, std::move(map), false, 1) {
+  simulation(const Model& model, site_map<lattice_type> map) : base(model, std::move(map), 1) {
     f_.assign(components * directions * rows_.stride() + beyond, T(0));
     if constexpr (Storage == storage::two_lattices) {
       next_.assign(f_.size(), T(0));
     }
-    make_held();
   }
 
   [[nodiscard]] std::size_t steps() const noexcept { return steps_; }
@@ -139,12 +138,6 @@ class simulation : public detail::surroundings<Model, T, Lanes, Storage == stora
   static constexpr int count = static_cast<int>(directions);
   using number = pack<T, Lanes>;
 
-  /// Nodes of a reservoir.
-  struct held_batch {
-    std::int32_t cell[width];
-    std::uint32_t gate[directions][width];
-    std::uint8_t tag;
-  };
   [[nodiscard]] static constexpr std::size_t reversed(std::size_t i) noexcept {
     return static_cast<std::size_t>(opposite(static_cast<int>(i)));
   }
@@ -159,43 +152,6 @@ class simulation : public detail::surroundings<Model, T, Lanes, Storage == stora
 
   [[nodiscard]] T* slots(detail::aligned_vector<T>& f, std::size_t c) const noexcept {
     return f.data() + c * directions * rows_.stride();
-  }
-  void make_held() {
-    held_of_.push_back(0);
-    for (std::size_t x = 0; x < map_.plane_count(); ++x) {
-      std::vector<std::size_t> held;
-      for (auto n = static_cast<std::size_t>(map_.plane_begin(x));
-           n < static_cast<std::size_t>(map_.plane_begin(x + 1)); ++n) {
-        if (map_.at(n).kind == site_kind::reservoir) {
-          held.push_back(n);
-        }
-      }
-      const auto tag = [&](std::size_t k) { return map_.at(held[k]).tag; };
-      std::stable_sort(held.begin(), held.end(),
-                       [&](std::size_t a, std::size_t b) { return map_.at(a).tag < map_.at(b).tag; });
-      for (std::size_t k = 0; k < held.size();) {
-        std::size_t upto = k;
-        while (upto < held.size() && upto - k < width && tag(upto) == tag(k)) {
-          ++upto;
-        }
-        held_.push_back(held_by(tag(k), std::span(held).subspan(k, upto - k)));
-        k = upto;
-      }
-      held_of_.push_back(held_.size());
-    }
-  }
-  [[nodiscard]] held_batch held_by(std::uint8_t tag, std::span<const std::size_t> nodes) const {
-    held_batch b{};
-    b.tag = tag;
-    for (std::size_t lane = 0; lane < width; ++lane) {
-      const bool used = lane < nodes.size();
-      b.cell[lane] = used ? rows_.cell(nodes[lane]) : rows_.idle();
-      for (std::size_t k = 0; k < directions; ++k) {  // an idle lane's own gate: none writes where another reads
-        b.gate[k][lane] = static_cast<std::uint32_t>(used ? rows_.gate(map_.leaving(nodes[lane], static_cast<int>(k)))
-                                                          : rows_.place(rows_.idle(), k));
-      }
-    }
-    return b;
   }
 
   template <stream S>
@@ -279,10 +235,14 @@ class simulation : public detail::surroundings<Model, T, Lanes, Storage == stora
       for (std::size_t r = p.first_run; r < p.last_run; ++r) {
         const run_type& run = rows_.runs()[r];
         const auto& by = rows_.tables()[static_cast<std::size_t>(run.table)];
+        T* const shown = psi + run.cell;
+        if (run.what.kind == site_kind::reservoir) {
+          std::fill_n(shown, run.nodes, static_cast<T>(model.potential(reservoirs_[run.what.tag][c])));
+          continue;
+        }
         for (std::size_t i = 0; i < directions; ++i) {
           from[i] = f + run.cell + arrival<S>(i, by.to);
         }
-        T* const shown = psi + run.cell;
         const auto all = [&](std::ptrdiff_t n) TETRAPORE_INLINE {
           number g[directions];
           detail::repeat<count>([&]<int I>(detail::number<I>) TETRAPORE_INLINE { g[I] = number::load(from[I] + n); });
@@ -294,12 +254,6 @@ class simulation : public detail::surroundings<Model, T, Lanes, Storage == stora
         }
         if (n < run.nodes) {
           number::select(base::lanes_of(run.nodes - n), all(n), number::load(shown + n)).store(shown + n);
-        }
-      }
-      for (std::size_t h = held_of_[x]; h < held_of_[x + 1]; ++h) {
-        const T value = static_cast<T>(model.potential(reservoirs_[held_[h].tag][c]));
-        for (const std::int32_t cell : held_[h].cell) {
-          psi[cell] = value;
         }
       }
       this->show_copies(c, p.first_copy, p.last_copy);
@@ -337,6 +291,12 @@ class simulation : public detail::surroundings<Model, T, Lanes, Storage == stora
           }
         }
         const std::ptrdiff_t end = last ? run.nodes : whole;
+        if (run.what.kind == site_kind::reservoir) {
+          for (std::ptrdiff_t m = 0; n < end; n += Lanes, m += Lanes) {
+            hold(at, run.what.tag, n, m);
+          }
+          continue;
+        }
         for (std::ptrdiff_t m = 0; n < end; n += Lanes, m += Lanes) {
           model.template collide<number>([&]<int C, int I>(detail::number<C>, detail::number<I>)
                                              TETRAPORE_INLINE { return number::load(at.from[C][I] + n); },
@@ -357,36 +317,25 @@ class simulation : public detail::surroundings<Model, T, Lanes, Storage == stora
         }
       }
     }
-    for (std::size_t h = held_of_[x]; h < held_of_[x + 1]; ++h) {
-      hold<S>(held_[h], next);
-    }
     if constexpr (S == stream::exchange) {
       deliver(p);
     }
   }
 
   /// A batch of reservoir nodes: what leaves them does not depend on their neighbours.
-  template <stream S>
-  void hold(const held_batch& b, detail::aligned_vector<T>& next) {
+  void hold(const ports& at, std::uint8_t tag, std::ptrdiff_t from, std::ptrdiff_t to) const {
     number f[components][directions];
     number rho[components];
     for (std::size_t c = 0; c < components; ++c) {
-      const T* const from = slots(f_, c);
+      rho[c] = number(static_cast<T>(reservoirs_[tag][c]));
       for (std::size_t i = 0; i < directions; ++i) {
-        for (std::size_t lane = 0; lane < width; ++lane) {
-          f[c][i].v[lane] = from[S == stream::turn ? rows_.place(b.cell[lane], i) : b.gate[reversed(i)][lane]];
-        }
+        f[c][i] = number::load(at.from[c][i] + from);
       }
-      rho[c] = number(static_cast<T>(reservoirs_[b.tag][c]));
     }
     model_.hold(f, rho);
     for (std::size_t c = 0; c < components; ++c) {
-      T* const to = slots(next, c);
       for (std::size_t k = 0; k < directions; ++k) {
-        for (std::size_t lane = 0; lane < width; ++lane) {
-          to[S == stream::exchange ? b.gate[k][lane] : rows_.place(b.cell[lane], S == stream::turn ? reversed(k) : k)] =
-              f[c][k].v[lane];
-        }
+        f[c][k].store(at.to[c][k] + to);
       }
     }
   }
@@ -394,8 +343,6 @@ class simulation : public detail::surroundings<Model, T, Lanes, Storage == stora
   std::size_t steps_ = 0;
   detail::aligned_vector<T> f_;  ///< slots of all cells, one behind the other, component by component
   detail::aligned_vector<T> next_;
-  std::vector<held_batch> held_;
-  std::vector<std::size_t> held_of_;  ///< where the batches of each plane begin
 };
 
 }  // namespace lbm

@@ -110,16 +110,17 @@ class surroundings {
     std::size_t needs;  ///< how many planes must show their ψ before this one is updated
   };
 
-  surroundings(const Model& model, site_map<lattice_type> map, bool through_reservoirs, std::size_t aligned)
-      : model_(model), map_(std::move(map)), rows_(map_, width, per_line, through_reservoirs, aligned) {
+  surroundings(const Model& model, site_map<lattice_type> map, std::size_t aligned)
+      : model_(model), map_(std::move(map)), rows_(map_, width, per_line, aligned) {
     for (const auto& c : model_.collisions) {
       if (!(c.tau > 0.5)) {
         throw parameter_error("collision", "tau = " + short_number(c.tau), "more than 0.5");
       }
     }
+    psi_step_ = apart(static_cast<std::size_t>(cell_of_wall(0)) + tags + beyond);
+    psi_.resize(beyond + components * psi_step_);
     for (std::size_t c = 0; c < components; ++c) {
-      psi_[c].assign(beyond + static_cast<std::size_t>(cell_of_wall(0)) + tags + beyond,
-                     static_cast<T>(model_.potential(model_.reference[c])));
+      std::fill_n(psi(c), psi_step_, static_cast<T>(model_.potential(model_.reference[c])));
     }
     walls_.fill(model_.reference);
     reservoirs_.fill(model_.reference);
@@ -148,7 +149,14 @@ class surroundings {
     }
   }
 
-  [[nodiscard]] T* psi(std::size_t c) noexcept { return psi_[c].data() + beyond; }
+  [[nodiscard]] T* psi(std::size_t c) noexcept { return psi_.data() + beyond + c * psi_step_; }
+  /// Numbers between ψ of two components.
+  [[nodiscard]] std::size_t psi_step() const noexcept { return psi_step_; }
+  /// At least so many numbers between arrays that are worked on together; they do not share a set of the cache.
+  [[nodiscard]] static constexpr std::size_t apart(std::size_t count) noexcept {
+    const std::size_t lines = count / per_line + 1;
+    return (lines + (27 + 64 - lines % 64) % 64) * per_line;
+  }
   /// Where ψ of walls of a tag is kept.
   [[nodiscard]] std::int32_t cell_of_wall(std::uint8_t tag) const noexcept {
     return rows_.face() + static_cast<std::int32_t>(rows_.longest() + width) + tag;
@@ -220,13 +228,15 @@ class surroundings {
   Model model_;
   site_map<lattice_type> map_;
   layout_type rows_;
-  std::array<aligned_vector<T>, components> psi_;
   std::array<densities, tags> walls_;
   std::array<densities, tags> reservoirs_;
   std::vector<image_cells> images_;
   std::vector<image_range> image_ranges_;  ///< for each plane
 
  private:
+  aligned_vector<T> psi_;
+  std::size_t psi_step_ = 0;
+
   /// Images in the order of the first plane that sees them.
   void make_images() {
     std::size_t needs = 0;
