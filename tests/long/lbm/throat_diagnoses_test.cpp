@@ -90,14 +90,14 @@ TEST_CASE("throats at the limits of the lattice end with a number or with a name
       s.pair.factor = 1 / (1 - 1 / (2 * tau));
       s.pair.attraction = 2 * strength / s.pair.factor;
       s.pair.common = (s.pair.factor - 1) / 2;
-      rows.push_back(row_of_hold("claimed", s, 0.8));  // the tension of another pair
+      rows.push_back(row_of_hold("claimed_pair", s, 0.8));  // the tension of another pair
       if (const auto pair = measure_pair<fluids>(s.pair.attraction, tau); pair.ok()) {
         s.pair = pair.value;
         if (const auto known = calibrated(forcing_kind::velocity_shift, tau, s.pair.attraction); known.ok()) {
           s.pair.surface_tension = surface_tension(known.value, s.pair.main);
         }
-        rows.push_back(row_of_hold("measured", s, 0.8));
-        rows.push_back(row_of_hold("measured", s, 1.25));
+        rows.push_back(row_of_hold("measured_pair", s, 0.8));
+        rows.push_back(row_of_hold("measured_pair", s, 1.25));
       }
     }
   }
