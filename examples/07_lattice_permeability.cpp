@@ -113,10 +113,8 @@ void run(const lattice_job& job) {
   }
   file.commit();
 
-  // the error falls as the square of the width of a node, 9 to 4
-  const double limit = (9 * fine.permeability - 4 * coarse.permeability) / 5;
-  const double updates = static_cast<double>(coarse.fluid_nodes) * static_cast<double>(coarse.steps) +
-                         static_cast<double>(fine.fluid_nodes) * static_cast<double>(fine.steps);
+  const auto limit = tp::lbm::extrapolated(coarse, fine);
+  const auto updates = static_cast<double>(coarse.updates() + fine.updates());
   const support::key_printer print;
   print("grains", packing.grains.size());
   print("nodes", static_cast<std::size_t>(job.nodes));
@@ -127,8 +125,8 @@ void run(const lattice_job& job) {
   print("permeability_coarse", coarse.permeability);
   print("permeability", fine.permeability);
   print("permeability_over_r2", fine.permeability / (radius * radius));
-  print("permeability_extrapolated", limit);
-  print("discretisation_estimate", fine.permeability / limit - 1);
+  print("permeability_extrapolated", limit.permeability);
+  print("discretisation_estimate", limit.discretisation);
   print("steps", coarse.steps + fine.steps);
   print("mlups", updates / seconds * 1e-6);
   print("seconds", seconds);

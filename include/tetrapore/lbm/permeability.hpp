@@ -59,12 +59,29 @@ struct permeability_options {
 /// \par Units  permeability in the square of the unit of length
 struct lattice_permeability {
   double permeability;
+  double node;      ///< width of a node [unit of length]
   double porosity;  ///< of the nodes
   std::size_t fluid_nodes;
   std::size_t wall_links;      ///< from a fluid node to a solid one
   std::size_t half_way_links;  ///< those whose wall is taken half-way, for want of a node on their other side
   std::size_t steps;
+
+  [[nodiscard]] std::size_t updates() const noexcept { return fluid_nodes * steps; }
 };
+
+/// What two lattices of different nodes say of the limit, as if the error were of the second order.
+/// \par Accuracy  what half-way links leave is of the first order and comes on top: −1.7 % in a random packing of
+///                fraction 0.60 with 9 nodes to the radius, 14 % of whose wall links are half-way
+struct permeability_limit {
+  double permeability;
+  double discretisation;  ///< relative, of the finer lattice
+};
+[[nodiscard]] inline permeability_limit extrapolated(const lattice_permeability& coarse,
+                                                     const lattice_permeability& fine) noexcept {
+  const double ratio = coarse.node / fine.node;
+  const double limit = (ratio * ratio * fine.permeability - coarse.permeability) / (ratio * ratio - 1);
+  return {limit, std::abs(fine.permeability / limit - 1)};
+}
 
 namespace detail {
 
@@ -257,9 +274,13 @@ template <lattice L = d3q19, std::floating_point T = double>
     }
   };
   const double volume = static_cast<double>(solid.box().size[0]) * solid.box().size[1] * solid.box().size[2];
-  lattice_permeability r{quiet_nan<double>,          static_cast<double>(s.sites().size()) / volume,
-                         s.sites().size(),           cuts.size(),
-                         cuts.size() - walls.size(), 0};
+  lattice_permeability r{quiet_nan<double>,
+                         solid.step(),
+                         static_cast<double>(s.sites().size()) / volume,
+                         s.sites().size(),
+                         cuts.size(),
+                         cuts.size() - walls.size(),
+                         0};
   const auto pace = static_cast<std::size_t>(100 / model.viscosity(0)) + 1;
   // as fast as inertia allows, so that rounding matters least: Re < 0.05 across the box, far below the speed of sound
   const double wanted = std::min(5e-4, 0.05 * model.viscosity(0) / width);

@@ -111,6 +111,18 @@ TEST_CASE("simple cubic spheres resist as Zick and Homsy say") {
   }
 }
 
+TEST_CASE("two lattices whose errors are of the second order give the limit and the error of the finer") {
+  const auto of = [](double node) {
+    lattice_permeability k{};
+    k.node = node;
+    k.permeability = 2 * (1 - 0.5 * node * node);
+    return k;
+  };
+  const auto limit = extrapolated(of(0.3), of(0.1));
+  CHECK(limit.permeability == doctest::Approx(2).epsilon(1e-14));
+  CHECK(limit.discretisation == doctest::Approx(0.005).epsilon(1e-12));
+}
+
 TEST_CASE("permeability does not depend on the viscosity that it is measured with") {
   const periodic_spheres p = simple_cubic(0.45);
   const double reference = measure_permeability(p, 12, 0).value.permeability;
