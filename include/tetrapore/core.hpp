@@ -5,6 +5,7 @@
 /// Everything of layer 0.
 
 #include "tetrapore/core/contracts.hpp"
+#include "tetrapore/core/eliminate.hpp"
 #include "tetrapore/core/error.hpp"
 #include "tetrapore/core/evaluate.hpp"
 #include "tetrapore/core/executor.hpp"
