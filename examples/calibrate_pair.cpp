@@ -35,10 +35,12 @@ std::vector<request> all() {
   for (const double g : {2.1, 2.4}) {
     r.push_back({true, 1.5, g});
   }
-  for (const double g : {2.8, 3.2, 3.6, 4.0}) {
+  for (const double g : {2.4, 2.8, 3.2, 3.6, 4.0}) {
     r.push_back({false, 1, g});
   }
-  r.push_back({false, 0.7, 3.2});
+  for (const double g : {2.8, 3.2}) {
+    r.push_back({false, 0.7, g});
+  }
   return r;
 }
 

@@ -80,10 +80,11 @@ void calibrate_bubbles(calibration_run& r) {
 /// The cosine that a wettability makes between plates, above 1 where a film covers them.
 template <class Forcing>
 [[nodiscard]] contact_result angle_of_wettability(const calibrated_mixture& m, double wettability, double expected,
-                                                  int half_gap = 24) {
+                                                  int half_gap = 24, double more = 0) {
   return contact_angle<mixture<d2q9, bgk, Forcing>>({.attraction = m.attraction,
                                                      .tau = m.tau,
                                                      .main = m.main,
+                                                     .more = more,
                                                      .tension = m.flat_tension,
                                                      .factor = m.factor,
                                                      .wettability = wettability,
@@ -98,12 +99,14 @@ void calibrate_angles(calibration_run& r) {
   double slope = 1.3;  // of the cosine
   double last = 0;
   double last_cosine = 0;
+  double more = 0;
   for (std::size_t k = calibrated_angles.size(); k-- > 0 && r.end == hold_end::stable;) {
     const double angle = calibrated_angles[k] * pi<double> / 180;
     const double asked = std::cos(angle);
     double x = last + (asked - last_cosine) / slope;
     for (int turn = 0; turn < 4; ++turn) {
-      const contact_result c = angle_of_wettability<Forcing>(r.mixture, x, angle);
+      const contact_result c = angle_of_wettability<Forcing>(r.mixture, x, angle, 24, more);
+      more = c.more;
       r.updates += c.rest.updates;
       r.end = c.rest.end;
       if (r.end != hold_end::stable) {

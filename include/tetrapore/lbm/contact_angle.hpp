@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tetrapore/lbm/laplace.hpp"
+#include "tetrapore/lbm/wall_shift.hpp"
 
 #include <span>
 
@@ -16,6 +17,7 @@ struct contact_set_up {
   double attraction = 1.8;  ///< G
   double tau = 1;
   double main = 1;           ///< mean main density of both phases
+  double more = 0;           ///< laid in the beginning: walls repel both components and take up some of them
   double tension = 0.0862;   ///< of a flat interface, for the start
   double factor = 1.995;     ///< c of `coexistence`, for the start
   double wettability = 0.5;  ///< of both plates, `wall_of_wettability`
@@ -27,9 +29,11 @@ struct contact_set_up {
 
 /// What a meniscus shows: component 1 is the liquid, angles are through it.
 struct contact_result {
-  double angle = 0;      ///< at the plate, half a node outside the last row [rad]; 0 where a film covers the plate
+  double angle = 0;      ///< at the plane that acts as the plate [rad]; 0 where a film covers the plate
   double curvature = 0;  ///< of the meniscus [1/node]; its sign is that of cos θ
-  double cosine = 0;     ///< half gap × curvature; above 1 where a film narrows the gap
+  double cosine = 0;     ///< (half gap − axis_wall_shift) × curvature; above 1 where a film narrows the gap
+  double tension = 0;    ///< p_c over the curvature
+  double more = 0;       ///< what had to be laid for the main density that was asked for
   double residual = 0;   ///< root mean square distance of the interface from its arc [nodes]
   double by_rows = 0;    ///< by how much the angle changes when two rows more are left out [rad]
   double driest = 0;  ///< lowest share of liquid beside the plate: (ρ1 − ρ0)/(main − dissolved); −1 dry, 1 wet
@@ -74,8 +78,9 @@ struct arc {
 /// Lets a meniscus between plates come to rest and fits an arc to the line on which the components weigh the same.
 ///
 /// What the arc has at the plate is the angle seen from afar; next to the wall the interface bends within some 3 nodes.
-/// The plane at which the angle holds lies inside the gap by a fraction of a node, so that the cosine found in a gap of
-/// half width h is off by some 0.5/h; two gaps give the limit.
+/// The plane at which the angle holds lies inside the gap by `axis_wall_shift`. A wall shows densities of its own, so
+/// its angle follows the main density (cos θ by half of a change of it): fluids are laid again until that is the one
+/// asked for, to 0.3 %.
 /// \par Units  lattice units
 /// \tparam Model  a mixture on a lattice of two dimensions: of D3Q19 it is what its planes show
 template <class Model = mixture<d2q9, bgk>, std::floating_point T = float>
@@ -105,12 +110,6 @@ template <class Model = mixture<d2q9, bgk>, std::floating_point T = float>
   s.set_wall(0, wall_of_wettability(o.main, flat.value, o.wettability));
   const double curvature = start_cosine / o.half_gap;
   const auto below_middle = [&](int y) { return height - 0.5 - y; };
-  lay_interface(s, start.value, [&](const std::array<int, 3>& p) {
-    const double h = below_middle(p[1]);
-    const double sagitta = curvature * h * h / (1 + std::sqrt(std::max(0.0, 1 - curvature * curvature * h * h)));
-    return 0.5 * length - (sagitta - curvature * o.half_gap * o.half_gap / 2) - p[0];
-  });
-
   std::vector<std::array<double, 2>> points(static_cast<std::size_t>(height));
   std::vector<double> profile(static_cast<std::size_t>(length));
   const auto fit = [&](int skipped) {
@@ -135,16 +134,37 @@ template <class Model = mixture<d2q9, bgk>, std::floating_point T = float>
     }
     return 2 - o.half_gap * fit(o.skipped).curvature;
   };
-  c.rest = rest(s, o.rest, look);
-  if (c.rest.end != hold_end::stable) {
-    return c;
+  const int axis = height - 1;
+  const auto at = [&](int x) { return s.densities_at(static_cast<std::size_t>(s.sites().node_at(x, axis, 0))); };
+  c.more = o.more;
+  for (int turn = 0; turn < 4; ++turn) {
+    reservoir_pair laid = start.value;
+    laid.gas[0] += c.more;
+    laid.liquid[1] += c.more;
+    lay_interface(s, laid, [&](const std::array<int, 3>& p) {
+      const double h = below_middle(p[1]);
+      const double sagitta = curvature * h * h / (1 + std::sqrt(std::max(0.0, 1 - curvature * curvature * h * h)));
+      return 0.5 * length - (sagitta - curvature * o.half_gap * o.half_gap / 2) - p[0];
+    });
+    const rest_report r = rest(s, o.rest, look);
+    c.rest = {r.change, c.rest.steps + r.steps, c.rest.updates + r.updates, r.end};
+    if (r.end != hold_end::stable) {
+      return c;
+    }
+    const double miss = o.main - (at(1)[0] + at(length - 2)[1]) / 2;
+    if (std::abs(miss) < 0.003 * o.main) {
+      break;
+    }
+    c.more += miss;
   }
   const detail::arc whole = fit(o.skipped);
   const auto angle_of = [&](double curvature_found) {
-    return std::acos(std::clamp(-curvature_found * o.half_gap, -1.0, 1.0));  // the gas reaches out in the middle
+    // the gas reaches out in the middle
+    return std::acos(std::clamp(-curvature_found * (o.half_gap - axis_wall_shift), -1.0, 1.0));
   };
   c.curvature = -whole.curvature;
-  c.cosine = c.curvature * o.half_gap;
+  c.cosine = c.curvature * (o.half_gap - axis_wall_shift);
+  c.tension = (model.pressure(at(1)) - model.pressure(at(length - 2))) / c.curvature;
   c.angle = angle_of(whole.curvature);
   c.residual = whole.residual;
   c.by_rows = std::abs(angle_of(fit(o.skipped + 2).curvature) - c.angle);

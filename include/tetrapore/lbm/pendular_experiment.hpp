@@ -4,6 +4,9 @@
 #include "tetrapore/law/bridge/young_laplace.hpp"
 #include "tetrapore/lbm/calibration.hpp"
 #include "tetrapore/lbm/contact_angle.hpp"
+#include "tetrapore/lbm/wall_shift.hpp"
+
+#include <optional>
 
 /// \file
 /// A liquid bridge between two equal grains, one eighth of it between mirrors: the force that it pulls with and its
@@ -15,12 +18,13 @@ namespace lbm {
 /// Two grains on the z axis. \par Units  lattice units but where said
 struct pendular_set_up {
   calibrated_mixture mixture{};
-  double radius = 24;        ///< of the grains [nodes]
-  double gap = 0;            ///< between them, in radii
-  double volume = 0.05;      ///< of the liquid to start from, in radii³
-  double contact_angle = 0;  ///< [rad]
-  double retraction = 1.5;   ///< nodes by which grains shrink: 1.5 leave room for a film, 0.5 is right where θ > 0
-  int margin = 10;           ///< nodes beyond the bridge
+  double radius = 24;                  ///< of the grains [nodes]
+  double gap = 0;                      ///< between them, in radii
+  double suction = 0.5;                ///< that it is to end at, × radius/σ: its volume is changed until it does
+  double contact_angle = 0;            ///< [rad]
+  std::optional<double> retraction{};  ///< nodes by which grains shrink; none: what plates say (wall_shift.hpp)
+  int margin = 10;                     ///< nodes beyond the bridge
+  double near = 0.05;                  ///< by how much the suction may differ from what is asked for
   rest_options rest{1000, 3e-4, 3, 60000};
 };
 
@@ -33,15 +37,20 @@ struct pendular_result {
   double neck = 0;       ///< radius of the neck
   double law_force = 0;  ///< at the suction
   double law_volume = 0;
-  double tension = 0;  ///< σ at these densities
-  double dry = 0;      ///< share of the grains' outer nodes that have no neighbour in which liquid outweighs gas
+  double law_neck = 0;
+  double retraction = 0;  ///< nodes by which the grains shrank
+  double tension = 0;     ///< σ at these densities
+  double dry = 0;         ///< share of the grains' outer nodes that have no neighbour in which liquid outweighs gas
   rest_report rest;
   bridge_status law = bridge_status::ok;
 };
 
-/// Lets a bridge of a given volume come to rest.
+/// Lets a bridge come to rest at a suction: bridges of one suction, unlike those of one volume, films and adsorbed
+/// liquid included, have one shape at every resolution.
 ///
-/// The force is the momentum that passes the plane between the grains, by populations and by bonds: no integral of an
+/// Walls of 0 < θ < 90° repel the liquid, and unevenly where the gap widens outward: its pressure falls from the
+/// middle to the meniscus by some 0.1 σ/R, at any resolution. So the suction is taken beside the meniscus. The force
+/// is the momentum that passes the plane between the grains, by populations and by bonds: no integral of an
 /// interface. The law is asked for the force at the suction that the fluids show; σ is that of their densities.
 /// \par Domain  a bridge that the law knows; a volume for which its neck and its contact line are resolved
 template <class Forcing = velocity_shift, std::floating_point T = float>
@@ -52,12 +61,15 @@ template <class Forcing = velocity_shift, std::floating_point T = float>
   const young_laplace<> law{
       .surface_tension = 1.0, .contact_angle1 = o.contact_angle, .contact_angle2 = o.contact_angle};
   const edge<double> pair{1, 1, o.gap, {0, 0, 1}};
-  const auto start = law.bridge(pair, given_volume<double>{o.volume});
+  const auto start = law.bridge(pair, given_suction<double>{o.suction});
   b.law = start.reason;
   if (!start.ok()) {
     b.rest.end = hold_end::dissolved;
     return b;
   }
+  // a film on a grain has the pressure of the gas less that of its own curvature, 2 σ/R, and of the suction
+  const double film = film_shift(o.radius / (o.suction + 2));
+  b.retraction = o.retraction.value_or(o.contact_angle > 0 ? wall_shift : film);
   const double half_gap = o.radius * o.gap / 2;
   const double contact = o.radius * std::sin(start.value.filling1);
   const double top = half_gap + o.radius * (1 - std::cos(start.value.filling1));
@@ -75,7 +87,7 @@ template <class Forcing = velocity_shift, std::floating_point T = float>
   }
   constexpr face_kind mirror = face_kind::mirror;
   const auto solid = [&](int x, int y, int z) {
-    const double r = o.radius - o.retraction;
+    const double r = o.radius - b.retraction;
     const double dz = z + 0.5 - centre;
     return (x + 0.5) * (x + 0.5) + (y + 0.5) * (y + 0.5) + dz * dz < r * r;
   };
@@ -105,6 +117,8 @@ template <class Forcing = velocity_shift, std::floating_point T = float>
     const double outside = model.pressure(gas);
     double pull = 0;
     double disc = 0;
+    double beside = 0;  // pressure of the liquid next to the meniscus, clear of it by two widths
+    int nodes = 0;
     for (int x = 0; x < side; ++x) {
       for (int y = 0; y < side; ++y) {
         if (map.node_at(x, y, 0) < 0) {
@@ -112,6 +126,12 @@ template <class Forcing = velocity_shift, std::floating_point T = float>
         }
         const auto n = static_cast<std::size_t>(map.node_at(x, y, 0));
         const auto here = s.densities_at(n);
+        const double across = std::hypot(x + 0.5, y + 0.5);
+        const double clear = std::max(b.neck > 0 ? b.neck * o.radius - 2 * o.mixture.width : neck / 2, 1.0);
+        if (across <= clear && across > clear - o.mixture.width) {
+          beside += model.pressure(here);
+          ++nodes;
+        }
         disc += (gas[0] - gas[1] - here[0] + here[1]) / (gas[0] - gas[1] - liquid[0] + liquid[1]);
         double stress = 0;
         for (std::size_t i = 0; i < fluids::directions; ++i) {
@@ -129,27 +149,46 @@ template <class Forcing = velocity_shift, std::floating_point T = float>
     }
     mean_main = (gas[0] + liquid[1]) / 2;
     b.tension = surface_tension(o.mixture, mean_main);
-    b.suction = (outside - model.pressure(liquid)) * o.radius / b.tension;
+    b.suction = (outside - beside / nodes) * o.radius / b.tension;
     b.force = 4 * pull / (b.tension * o.radius);
     b.neck = std::sqrt(4 * disc / pi<double>) / o.radius;
-    return b.force;
+    return b.force * b.neck;  // near its largest the force hardly moves with the bridge
   };
   // walls repel both components and films hold some of one: what is laid is shifted until the bulk has the densities
-  // of the calibration
+  // of the calibration and the suction is that asked for
   reservoir_pair laid = rho.value;
-  for (int turn = 0; turn < 3; ++turn) {
+  double volume = start.value.volume;
+  for (int turn = 0; turn < 8; ++turn) {
+    const auto shape = law.bridge(pair, given_volume<double>{volume});
+    if (!shape.ok()) {
+      b.law = shape.reason;
+      b.rest.end = hold_end::dissolved;
+      return b;
+    }
+    const double rim = o.radius * std::sin(shape.value.filling1);
+    const double waist = o.radius * shape.value.neck;
+    const double rise = half_gap + o.radius * (1 - std::cos(shape.value.filling1));
     lay_interface(s, laid, [&](const std::array<int, 3>& p) {
-      const double rise = std::min((p[2] + 0.5) / top, 1.5);
-      return std::hypot(p[0] + 0.5, p[1] + 0.5) - (neck + (contact - neck) * rise * rise);
+      const double across = std::hypot(p[0] + 0.5, p[1] + 0.5);
+      const double along = std::min((p[2] + 0.5) / rise, 1.5);
+      const double outside = across - (waist + (rim - waist) * along * along);
+      const double above = std::hypot(across, p[2] + 0.5 - centre) - o.radius + b.retraction;
+      return o.contact_angle > 0 ? outside : std::min(outside, above - 0.8 * film);
     });
-    const rest_report r = rest(s, o.rest, look);
+    const bool first = turn == 0;
+    rest_options wait = o.rest;
+    wait.still *= first ? 5 : 1;
+    const rest_report r = rest(s, wait, look);
     b.rest = {r.change, b.rest.steps + r.steps, b.rest.updates + r.updates, r.end};
     const double miss = o.mixture.main - mean_main;
-    if (r.end != hold_end::stable || std::abs(miss) < 0.005 * o.mixture.main) {
+    const bool near = std::abs(b.suction - o.suction) < o.near && std::abs(miss) < 0.005 * o.mixture.main;
+    const auto found = law.bridge(pair, given_suction<double>{b.suction});
+    if (r.end != hold_end::stable || (near && !first) || !found.ok()) {
       break;
     }
     laid.gas[0] += miss;
     laid.liquid[1] += miss;
+    volume = std::max(volume + start.value.volume - found.value.volume, start.value.volume / 3);
   }
   if (b.rest.end != hold_end::stable) {
     return b;
@@ -189,6 +228,7 @@ template <class Forcing = velocity_shift, std::floating_point T = float>
   if (same_suction.ok()) {
     b.law_force = same_suction.value.force;
     b.law_volume = same_suction.value.volume;
+    b.law_neck = same_suction.value.neck;
   }
   return b;
 }

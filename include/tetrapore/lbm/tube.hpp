@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <vector>
 
 /// \file
 /// The nodes of a straight tube whose section is a convex polygon, between a reservoir above and one below.
@@ -33,7 +34,17 @@ struct tube_resolution {
   std::size_t most_nodes = 1000000;  ///< fluid nodes that are allowed
 };
 
+/// The polygon whose sides are moved out by a length. \par Domain  lines alone
+[[nodiscard]] inline opening<double> moved_out(opening<double> o, double by) noexcept {
+  for (std::size_t k = 0; k < o.count; ++k) {
+    auto& side = o.sides[k];
+    side.point = side.point - side.normal * (by / norm(side.normal));
+  }
+  return o;
+}
+
 /// A tube along z. A polygon that is its own mirror image in a line along x or y is cut there, a mirror in its place.
+/// Nodes are taken from the middle outward until a section has as many as the retracted polygon has area.
 /// \par Domain  openings of three or more lines, counter-clockwise, around a bounded convex polygon
 class tube_on_lattice {
  public:
@@ -70,7 +81,7 @@ class tube_on_lattice {
 
   [[nodiscard]] site at(int x, int y, int z) const noexcept {
     const double room = to_walls(x, y) + resolution_.retraction;
-    if (room < 0) {
+    if (room < least_room_) {
       return {site_kind::solid, tube_wall};
     }
     if (z == 0 || (z + 1 == box_.size[2] && !(room < resolution_.plug))) {
@@ -78,6 +89,9 @@ class tube_on_lattice {
     }
     return {};
   }
+
+  /// By how much the walls are moved out in truth: the polygon has then the area of the nodes. \par Units  nodes
+  [[nodiscard]] double retraction() const noexcept { return retraction_; }
 
   /// How far a node lies from the nearest wall of the polygon as it was given, negative outside. \par Units  nodes
   [[nodiscard]] double to_walls(int x, int y) const noexcept {
@@ -184,6 +198,46 @@ class tube_on_lattice {
           "at most " + std::to_string(4 * resolution_.most_nodes) + ": a coarser resolution or a higher limit");
     }
     box_.size = {static_cast<int>(nodes[0]), static_cast<int>(nodes[1]), static_cast<int>(depth)};
+    fit_area();
+  }
+
+  /// Area of the polygon whose sides are moved out. \par Units  nodes
+  [[nodiscard]] double area(double out) const noexcept {
+    double twice = 0;
+    for (std::size_t k = 0; k < count_; ++k) {
+      twice += cross(meet((k + count_ - 1) % count_, k, out), meet(k, (k + 1) % count_, out));
+    }
+    return twice / 2;
+  }
+
+  /// Rows of nodes come and go as a whole along a wall that lies along an axis; elsewhere the steps even out.
+  void fit_area() {
+    std::vector<double> rooms;
+    for (int x = 0; x < box_.size[0]; ++x) {
+      for (int y = 0; y < box_.size[1]; ++y) {
+        rooms.push_back(to_walls(x, y) + resolution_.retraction);
+      }
+    }
+    std::sort(rooms.begin(), rooms.end(), [](double a, double b) { return a > b; });
+    const double copies =
+        (box_.low[0] == face_kind::mirror ? 2.0 : 1.0) * (box_.low[1] == face_kind::mirror ? 2.0 : 1.0);
+    const double asked = area(resolution_.retraction) / copies;
+    double nodes = 0;
+    double off = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 1; k < rooms.size() && rooms[k] > -1; ++k) {
+      const auto inside = static_cast<double>(k);
+      if (rooms[k - 1] - rooms[k] > 1e-9 && std::abs(inside - asked) < off) {  // equal rooms stay together
+        off = std::abs(inside - asked);
+        nodes = inside;
+        least_room_ = (rooms[k - 1] + rooms[k]) / 2;
+      }
+    }
+    double low = resolution_.retraction - 2;
+    double high = resolution_.retraction + 2;
+    for (int turn = 0; turn < 60; ++turn) {
+      (area((low + high) / 2) < nodes * copies ? low : high) = (low + high) / 2;
+    }
+    retraction_ = (low + high) / 2;
   }
 
   tube_resolution resolution_;
@@ -193,6 +247,8 @@ class tube_on_lattice {
   std::array<vec2<double>, opening<double>::max_sides> corner_{};
   vec2<double> first_{};  ///< the place of the node 0 0
   lattice_box box_;
+  double least_room_ = 0;  ///< of a fluid node: its distance from the retracted walls
+  double retraction_ = 0;
 };
 
 }  // namespace lbm

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Campaign: bubbles, menisci and bridges at rest against the figures they are asked to show
-// (docs/campaigns/lattice_calibration.json). A measurement that its progress file has is not made again.
+// Campaigns: bubbles, menisci, drops, tubes and bridges at rest against the figures they are asked to show
+// (docs/campaigns/lattice_calibration.json, lattice_menisci.json). A measurement that a progress file has is not made
+// again.
 #include "tetrapore/lbm/calibrate.hpp"
+#include "tetrapore/lbm/drop.hpp"
 #include "tetrapore/lbm/pendular_experiment.hpp"
+#include "tetrapore/lbm/tube_experiment.hpp"
 
 #include <doctest/doctest.h>
 
@@ -14,6 +17,7 @@
 #include <map>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace tetrapore;
@@ -26,7 +30,8 @@ constexpr double degree = pi<double> / 180;
 /// Named rows of numbers, kept on disk as they come.
 class notebook {
  public:
-  notebook() : folder_(TETRAPORE_CAMPAIGN_DIR), kept_(folder_ / "lattice_calibration.progress") {
+  explicit notebook(std::string called)
+      : folder_(TETRAPORE_CAMPAIGN_DIR), name_(std::move(called)), kept_(folder_ / (name_ + ".progress")) {
     std::filesystem::create_directories(folder_);
     std::ifstream in(kept_);
     for (std::string line; std::getline(in, line);) {
@@ -39,6 +44,7 @@ class notebook {
       }
     }
   }
+  [[nodiscard]] bool finished() const { return std::filesystem::exists(folder_ / (name_ + ".json")); }
   template <class Measure>
   std::vector<double> row(const std::string& name, Measure measure) {
     if (!rows_.contains(name)) {
@@ -54,7 +60,7 @@ class notebook {
     return rows_[name];
   }
   void finish() const {
-    std::ofstream out(folder_ / "lattice_calibration.json");
+    std::ofstream out(folder_ / (name_ + ".json"));
     out << "{\n  \"command\": \"tests/run.sh --long long_lbm\"";
     for (const auto& [name, row] : rows_) {
       out << ",\n  \"" << name << "\": [";
@@ -70,9 +76,27 @@ class notebook {
 
  private:
   std::filesystem::path folder_;
+  std::string name_;
   std::filesystem::path kept_;
   std::map<std::string, std::vector<double>> rows_;
 };
+
+/// A polygon around a circle of radius 1, its sides `normals` seen from outside.
+opening<double> around_circle(const std::vector<vec2<double>>& normals) {
+  opening<double> o;
+  for (const vec2<double>& out : normals) {
+    o.add_line(out, out * -1.0);
+  }
+  return o;
+}
+opening<double> regular(int sides) {
+  std::vector<vec2<double>> normals;
+  for (int k = 0; k < sides; ++k) {
+    const double at = 2 * pi<double> * k / sides - pi<double> / 2;
+    normals.push_back({std::cos(at), std::sin(at)});
+  }
+  return around_circle(normals);
+}
 
 std::string name_of(const char* what, double a, double b) {
   char text[80];
@@ -82,12 +106,12 @@ std::string name_of(const char* what, double a, double b) {
 
 }  // namespace
 
-TEST_CASE("bubbles, menisci and bridges at rest show the tensions, angles and forces that are asked of them") {
-  if (std::filesystem::exists(std::filesystem::path(TETRAPORE_CAMPAIGN_DIR) / "lattice_calibration.json")) {
+TEST_CASE("bubbles and menisci at rest show the tensions and angles that are asked of them") {
+  notebook book("lattice_calibration");
+  if (book.finished()) {
     MESSAGE("there already: lattice_calibration.json");
     return;
   }
-  notebook book;
 
   // a bubble of R = 18 whose outer main density is the tabulated one, σ by the radius of its own component
   struct tabulated {
@@ -151,27 +175,64 @@ TEST_CASE("bubbles, menisci and bridges at rest show the tensions, angles and fo
       CHECK((angle > 0 || c[2] > 0));
     }
   }
+  book.finish();
+}
 
-  // bridges against the law of Young and Laplace, finer and finer
+TEST_CASE("tubes, drops and bridges at rest show the entry pressures, angles and forces of their laws") {
+  notebook book("lattice_menisci");
+  if (book.finished()) {
+    MESSAGE("there already: lattice_menisci.json");
+    return;
+  }
   const calibrated_mixture m = calibrated(forcing_kind::velocity_shift, 1, 1.8).value;
-  for (const double angle : {0.0, 20.0, 40.0}) {
+
+  opening<double> rectangle = regular(4);
+  rectangle.sides[1].point = {2, 0};
+  rectangle.sides[3].point = {-2, 0};
+  const double s = std::sqrt(0.5);
+  const std::array<std::pair<const char*, opening<double>>, 6> sections{
+      {{"tube_square", regular(4)},
+       {"tube_triangle", regular(3)},
+       {"tube_right_isosceles", around_circle({{0, -1}, {s, s}, {-s, s}})},
+       {"tube_square_diagonal", around_circle({{s, -s}, {s, s}, {-s, s}, {-s, -s}})},
+       {"tube_rectangle", rectangle},
+       {"tube_hexagon", regular(6)}}};
+  for (const auto& [name, section] : sections) {
+    for (const double inscribed : {6.0, 9.0, 13.0}) {
+      const auto t = book.row(name_of(name, inscribed, 0), [&] {
+        const tube_result r = tube_at_rest<>({.section = section, .nodes_per_length = inscribed, .mixture = m});
+        REQUIRE(r.rest.end == hold_end::stable);
+        return std::vector<double>{r.law, r.entry, r.pressure, r.retraction, r.shift, r.flow};
+      });
+      CAPTURE(name);
+      CAPTURE(inscribed);
+      CHECK(std::abs(t[1] / t[0] - 1) < 0.02);
+    }
+  }
+
+  for (const auto& [angle, base] : {std::pair{25.0, 56.0}, {40.0, 40.0}, {60.0, 32.0}}) {
+    const auto d = book.row(name_of("drop", angle, base), [&] {
+      const drop_result r = drop_on_wall<>({.mixture = m, .contact_angle = angle * degree, .base = base});
+      REQUIRE(r.rest.end == hold_end::stable);
+      return std::vector<double>{r.angle / degree, r.at_wall / degree, r.radius, r.residual, r.tension};
+    });
+    CAPTURE(angle);
+    CHECK(std::abs(d[0] - angle) < (angle < 40 ? 3 : 1));
+  }
+
+  // bridges of one suction, finer and finer: where they are compared, the force changes little with the suction
+  for (const auto& [angle, suction] : {std::pair{0.0, 0.5}, {20.0, 0.0}, {40.0, -0.8}}) {
     for (const double radius : {16.0, 24.0, 32.0, 40.0}) {
       const auto b = book.row(name_of("bridge", angle, radius), [&] {
-        const pendular_result r = pendular_bridge<>({.mixture = m,
-                                                     .radius = radius,
-                                                     .gap = 0.2,
-                                                     .volume = angle > 20  ? 0.4
-                                                               : angle > 0 ? 0.35
-                                                                           : 0.3,
-                                                     .contact_angle = angle * degree,
-                                                     .retraction = angle > 0 ? 0.5 : 1.5});
+        const pendular_result r = pendular_bridge<>(
+            {.mixture = m, .radius = radius, .gap = 0.2, .suction = suction, .contact_angle = angle * degree});
         REQUIRE(r.rest.end == hold_end::stable);
-        return std::vector<double>{r.suction, r.force, r.law_force, r.neck, r.volume, r.dry};
+        return std::vector<double>{r.suction, r.force, r.law_force, r.neck, r.law_neck, r.volume, r.dry, r.retraction};
       });
       CAPTURE(angle);
       CAPTURE(radius);
       CHECK(std::abs(b[1] / b[2] - 1) < (radius < 24 ? 0.15 : 0.05));
-      CHECK((angle > 0 || b[5] == 0));
+      CHECK((angle > 0 || b[6] == 0));
     }
   }
   book.finish();
