@@ -166,19 +166,30 @@ class simulation<Model, T, storage::moments, Lanes> : public detail::surrounding
 
   /// A run whose nodes send.
   struct departure {
-    std::int32_t cell, nodes, table;
-    std::int32_t farthest;  ///< the last cell that its first node sees
-    std::uint32_t state;
-    std::uint32_t to;  ///< less the beginnings of slot and plane
-    site what;
+    std::uint32_t batch;  ///< the first
+    std::int32_t nodes;
+    std::uint32_t to;                               ///< less the beginnings of slot and plane
+    std::array<std::int32_t, directions - 1> seen;  ///< the cells that its first node sees
   };
-  /// A run whose nodes receive, and where what arrives at its first node in each direction has left.
+  /// The same of a reservoir.
+  struct held_departure {
+    std::uint32_t batch;
+    std::int32_t nodes;
+    std::uint32_t to;
+    std::uint8_t tag;
+  };
+  /// A run whose nodes receive, and where what arrives at its first node in each direction has left. Late ones have
+  /// cells and batches that belong to no place.
   struct arrival {
-    std::int32_t cell, nodes;  ///< the cell whose ψ, and
-    std::uint32_t state;       ///< the batch whose moments change; those of late runs lie apart
-    site what;
-    bool late;
+    std::uint32_t batch;  ///< the first
+    std::int32_t nodes;
+    std::int32_t cell;  ///< of the first node
     std::array<std::uint32_t, directions> from;
+  };
+  /// Cells that show a reservoir.
+  struct held_cells {
+    std::int32_t cell, nodes;
+    std::uint8_t tag;
   };
   /// What arrives from a cell that is no node, and where it has left.
   struct link {
@@ -188,14 +199,17 @@ class simulation<Model, T, storage::moments, Lanes> : public detail::surrounding
   /// What of all lists belongs to one plane of a strip.
   struct strip_plane {
     std::size_t first_departure, last_departure;
+    std::size_t first_held_departure, last_held_departure;
     std::size_t first_arrival, last_arrival;
+    std::size_t first_held_cells, last_held_cells;
     std::size_t first_link, last_link;
   };
-  /// A run whose nodes get their new numbers when another strip has been swept that still needs the old ones.
+  /// Nodes that get their new numbers when another strip has been swept that still needs the old ones.
   struct late_run {
     std::int32_t cell, nodes;
-    std::uint32_t state;
-    std::size_t apart;  ///< where the new numbers are, in batches
+    std::uint32_t batch;
+    std::int32_t from_cell;
+    std::uint32_t from_batch;
   };
   /// Rows that are swept together through all planes.
   struct strip {
@@ -204,7 +218,13 @@ class simulation<Model, T, storage::moments, Lanes> : public detail::surrounding
   };
 
   /// So many batches ahead what is not in the cache is asked for.
-  static constexpr std::ptrdiff_t soon_batches = 8;
+  static constexpr std::size_t soon = 8;
+  static constexpr std::size_t farthest = static_cast<std::size_t>(direction_of<lattice_type>(1, 1, 0));
+  /// What a record of a run says is read for each batch: runs are short, and to keep it all in registers costs more.
+  template <class Record>
+  [[gnu::always_inline]] static void forget(const Record*& record) noexcept {
+    asm volatile("" : "+r"(record));
+  }
   [[gnu::always_inline]] static void prefetch(const T* p) noexcept { __builtin_prefetch(p, 0, 2); }
 
   [[nodiscard]] std::size_t place_of(std::size_t component, std::size_t node, std::size_t k) const noexcept {
@@ -219,16 +239,14 @@ class simulation<Model, T, storage::moments, Lanes> : public detail::surrounding
   /// The moments of a batch lie together, batches in the order of runs.
   void place_nodes() {
     std::vector<std::uint32_t> lane_of_cell(rows_.cells());
-    std::size_t batches = 0;
     for (const run_type& run : rows_.runs()) {
-      state_of_run_.push_back(static_cast<std::uint32_t>(batches * width));
+      batch_of_run_.push_back(static_cast<std::uint32_t>(batches_));
       for (std::int32_t k = 0; k < run.nodes; ++k) {
         lane_of_cell[static_cast<std::size_t>(run.cell + k)] =
-            static_cast<std::uint32_t>(batches * width) + static_cast<std::uint32_t>(k);
+            static_cast<std::uint32_t>(batches_ * width) + static_cast<std::uint32_t>(k);
       }
-      batches += batches_of(run.nodes);
+      batches_ += batches_of(run.nodes);
     }
-    state_.assign(batches * numbers * width, T(0));
     batch_lane_.resize(map_.size());
     for (std::size_t n = 0; n < map_.size(); ++n) {
       batch_lane_[n] = lane_of_cell[static_cast<std::size_t>(rows_.cell(n))];
@@ -303,8 +321,8 @@ class simulation<Model, T, storage::moments, Lanes> : public detail::surrounding
       cut(rows * k / count, rows * (k + 1) / count, row_of_cell, k % 2 * most_late, 2 * most_late);
     }
     const std::size_t late = 2 * most_late + (count > 1 ? batches_of_rows(0, 2) : 0);
-    late_state_.assign(late * numbers * width, T(0));
-    late_psi_.assign(late * components * width, T(0));
+    state_.assign((batches_ + late + soon) * numbers * width, T(0));
+    this->lay_psi((late + soon) * width);
   }
   [[nodiscard]] std::size_t batches_of_rows(std::size_t first, std::size_t last) const noexcept {
     std::size_t batches = 0;
@@ -337,14 +355,11 @@ class simulation<Model, T, storage::moments, Lanes> : public detail::surrounding
     };
     strip s;
     for (std::size_t x = 0; x < map_.plane_count(); ++x) {
-      strip_plane p{departures_.size(), 0, arrivals_.size(), 0, links_.size(), 0};
+      strip_plane p{departures_.size(), 0, held_departures_.size(), 0, arrivals_.size(), 0,
+                    held_cells_.size(), 0, links_.size(),           0};
       for (const std::size_t a : from) {
         for (std::size_t r = row(x, a).first_run; r < row(x, a).last_run; ++r) {
-          const run_type& run = rows_.runs()[r];
-          const auto& seen = rows_.tables()[static_cast<std::size_t>(run.table)].seen;
-          departures_.push_back({run.cell, run.nodes, run.table, run.cell + *std::max_element(seen.begin(), seen.end()),
-                                 state_of_run_[r], static_cast<std::uint32_t>(run.cell + shift[x * rows + a]),
-                                 run.what});
+          add_departures(r, static_cast<std::uint32_t>(rows_.runs()[r].cell + shift[x * rows + a]));
         }
       }
       for (std::size_t a = first; a < last; ++a) {
@@ -353,12 +368,16 @@ class simulation<Model, T, storage::moments, Lanes> : public detail::surrounding
         for (std::size_t r = row(x, a).first_run; r < row(x, a).last_run; ++r) {
           const run_type& run = rows_.runs()[r];
           const auto& by = rows_.tables()[static_cast<std::size_t>(run.table)];
-          arrival to{run.cell, run.nodes, state_of_run_[r], run.what, early || late, {}};
-          if (to.late) {
+          arrival to{batch_of_run_[r], run.nodes, run.cell, {}};
+          if (early || late) {
             std::size_t& at = early ? early_at : late_at;
-            (early ? early_ : s.late).push_back({run.cell, run.nodes, to.state, at});
-            to.state = static_cast<std::uint32_t>(at * width);
+            to.batch = static_cast<std::uint32_t>(batches_ + at);
+            to.cell = this->first_free_cell() + static_cast<std::int32_t>(at * width);
+            (early ? early_ : s.late).push_back({run.cell, run.nodes, batch_of_run_[r], to.cell, to.batch});
             at += batches_of(run.nodes);
+          }
+          if (run.what.kind == site_kind::reservoir) {
+            held_cells_.push_back({to.cell, run.nodes, run.what.tag});
           }
           for (std::size_t k = 0; k < directions; ++k) {
             to.from[static_cast<std::size_t>(opposite(static_cast<int>(k)))] =
@@ -371,11 +390,26 @@ class simulation<Model, T, storage::moments, Lanes> : public detail::surrounding
         }
       }
       p.last_departure = departures_.size();
+      p.last_held_departure = held_departures_.size();
+      p.last_held_cells = held_cells_.size();
       p.last_arrival = arrivals_.size();
       p.last_link = links_.size();
       s.planes.push_back(p);
     }
     strips_.push_back(std::move(s));
+  }
+  void add_departures(std::size_t r, std::uint32_t to) {
+    const run_type& run = rows_.runs()[r];
+    const auto& by = rows_.tables()[static_cast<std::size_t>(run.table)];
+    if (run.what.kind == site_kind::reservoir) {
+      held_departures_.push_back({batch_of_run_[r], run.nodes, to, run.what.tag});
+      return;
+    }
+    departure d{batch_of_run_[r], run.nodes, to, {}};
+    for (std::size_t k = 1; k < directions; ++k) {
+      d.seen[k - 1] = run.cell + by.seen[k];
+    }
+    departures_.push_back(d);
   }
   /// Where what leaves a plane lies in a slot. A periodic box needs its first and last plane at both ends of a sweep.
   [[nodiscard]] std::size_t plane_of(std::size_t slot, std::size_t x) const noexcept {
@@ -407,14 +441,14 @@ class simulation<Model, T, storage::moments, Lanes> : public detail::surrounding
   /// New numbers that had to wait.
   void catch_up(const std::vector<late_run>& runs) {
     for (const late_run& run : runs) {
-      const std::size_t batches = batches_of(run.nodes);
-      std::copy_n(late_state_.data() + run.apart * width * numbers, batches * width * numbers,
-                  state_.data() + run.state * numbers);
+      std::copy_n(batch(run.from_batch), batches_of(run.nodes) * numbers * width, batch(run.batch));
       for (std::size_t c = 0; c < components; ++c) {
-        std::copy_n(late_psi_.data() + (run.apart * components + c * batches) * width, run.nodes,
-                    this->psi(c) + run.cell);
+        std::copy_n(this->psi(c) + run.from_cell, run.nodes, this->psi(c) + run.cell);
       }
     }
+  }
+  [[nodiscard, gnu::always_inline]] T* batch(std::uint32_t b) noexcept {
+    return state_.data() + static_cast<std::size_t>(b) * (numbers * width);
   }
 
   /// What leaves the nodes of a plane. Numbers beyond the end of a run are nobody's or written later.
@@ -423,53 +457,51 @@ class simulation<Model, T, storage::moments, Lanes> : public detail::surrounding
     const std::size_t sent_step = sent_step_;
     const std::size_t psi_step = this->psi_step();
     const T* const psi = this->psi(0);
-    T* const back = sent_.data() + plane_of(2, x);
-    T* const beside = sent_.data() + plane_of(0, x);
-    T* const ahead = sent_.data() + plane_of(1, x);
-    for (std::size_t r = p.first_departure; r < p.last_departure; ++r) {
-      const departure& run = departures_[r];
-      const auto& by = rows_.tables()[static_cast<std::size_t>(run.table)];
-      const T* const from = state_.data() + run.state * numbers;
-      T* const to[3] = {back + run.to, beside + run.to, ahead + run.to};
-      const auto moment_at = [&](std::ptrdiff_t n) TETRAPORE_INLINE {
-        return [from, n]<int C, int K>(detail::number<C>, detail::number<K>) TETRAPORE_INLINE {
-          return number::load(from + n * static_cast<std::ptrdiff_t>(numbers) + (C * moments + K) * width);
-        };
-      };
-      const auto give_at = [&](std::ptrdiff_t n) TETRAPORE_INLINE {
-        return [&to, sent_step, n]<int C, int I>(detail::number<C>, detail::number<I>, const number& value)
-                   TETRAPORE_INLINE {
-                     value.store(to[1 + lattice_type::velocity[I][0]] +
-                                 (static_cast<std::size_t>(C) * directions + I) * sent_step + n);
-                   };
-      };
-      if (run.what.kind == site_kind::reservoir) {
-        number rho[components];
-        for (std::size_t c = 0; c < components; ++c) {
-          rho[c] = number(static_cast<T>(reservoirs_[run.what.tag][c]));
-        }
-        for (std::ptrdiff_t n = 0; n < run.nodes; n += Lanes) {
-          model.template depart_held<number>(rho, moment_at(n), give_at(n));
-        }
-        continue;
-      }
-      const T* seen[directions];
-      for (std::size_t k = 0; k < directions; ++k) {
-        seen[k] = psi + run.cell + by.seen[k];
-      }
-      for (std::ptrdiff_t n = 0; n < run.nodes; n += Lanes) {
-        const T* const soon = from + (n + soon_batches * Lanes) * static_cast<std::ptrdiff_t>(numbers);
-        for (std::size_t k = 0; k < numbers; ++k) {
-          prefetch(soon + k * width);
+    T* const planes[3] = {sent_.data() + plane_of(2, x), sent_.data() + plane_of(0, x), sent_.data() + plane_of(1, x)};
+    const auto moment_of = [](const T* from) TETRAPORE_INLINE {
+      return [from]<int C, int K>(detail::number<C>, detail::number<K>)
+                 TETRAPORE_INLINE { return number::load(from + (C * moments + K) * width); };
+    };
+    const auto give_to = [&](std::uint32_t to) TETRAPORE_INLINE {
+      return [&planes, sent_step, to]<int C, int I>(detail::number<C>, detail::number<I>, const number& value)
+                 TETRAPORE_INLINE {
+                   value.store(planes[1 + lattice_type::velocity[I][0]] + to +
+                               (static_cast<std::size_t>(C) * directions + I) * sent_step);
+                 };
+    };
+    for (std::size_t k = p.first_departure; k < p.last_departure; ++k) {
+      const departure* d = &departures_[k];
+      const std::int32_t nodes = d->nodes;
+      const T* from = batch(d->batch);
+      const T* shown = psi;
+      std::uint32_t to = d->to;
+      for (std::int32_t n = 0; n < nodes; n += Lanes) {
+        for (std::size_t j = 0; j < numbers; ++j) {
+          prefetch(from + (soon * numbers + j) * width);
         }
         for (std::size_t c = 0; c < components; ++c) {
-          prefetch(psi + c * psi_step + run.farthest + n + soon_batches * Lanes);
+          prefetch(shown + c * psi_step + d->seen[farthest - 1] + soon * width);
         }
         model.template depart<number>(
-            moment_at(n),
+            moment_of(from),
             [&]<int C, int I>(detail::number<C>, detail::number<I>)
-                TETRAPORE_INLINE { return number::load(seen[I] + n + C * psi_step); },
-            give_at(n));
+                TETRAPORE_INLINE { return number::load(shown + d->seen[I - 1] + C * psi_step); },
+            give_to(to));
+        from += numbers * width;
+        shown += width;
+        to += static_cast<std::uint32_t>(width);
+        forget(d);
+      }
+    }
+    for (std::size_t k = p.first_held_departure; k < p.last_held_departure; ++k) {
+      const held_departure& d = held_departures_[k];
+      number rho[components];
+      for (std::size_t c = 0; c < components; ++c) {
+        rho[c] = number(static_cast<T>(reservoirs_[d.tag][c]));
+      }
+      const T* from = batch(d.batch);
+      for (std::int32_t n = 0; n < d.nodes; n += Lanes, from += numbers * width) {
+        model.template depart_held<number>(rho, moment_of(from), give_to(d.to + static_cast<std::uint32_t>(n)));
       }
     }
   }
@@ -477,47 +509,45 @@ class simulation<Model, T, storage::moments, Lanes> : public detail::surrounding
   /// The moments of what arrives in a plane, and ψ.
   void receive(const strip_plane& p) {
     const Model model = model_;
-    for (std::size_t c = 0; c < components; ++c) {
-      T* const f = sent_.data() + c * directions * sent_step_;
-      for (std::size_t k = p.first_link; k < p.last_link; ++k) {
-        f[links_[k].cell] = f[links_[k].from];
+    const std::size_t component_step = directions * sent_step_;
+    T* const sent = sent_.data();
+    for (std::size_t k = p.first_link; k < p.last_link; ++k) {
+      const link l = links_[k];
+      for (std::size_t c = 0; c < components; ++c) {
+        sent[l.cell + c * component_step] = sent[l.from + c * component_step];
       }
     }
-    const std::size_t component_step = directions * sent_step_;
-    for (std::size_t r = p.first_arrival; r < p.last_arrival; ++r) {
-      const arrival& run = arrivals_[r];
-      const T* from[directions];
-      for (std::size_t i = 0; i < directions; ++i) {
-        from[i] = sent_.data() + run.from[i];
-      }
-      T* const to = (run.late ? late_state_ : state_).data() + run.state * numbers;
-      T* shown[components];
-      for (std::size_t c = 0; c < components; ++c) {
-        shown[c] = run.late ? late_psi_.data() + run.state * components + c * batches_of(run.nodes) * width
-                            : this->psi(c) + run.cell;
-      }
-      for (std::ptrdiff_t n = 0; n < run.nodes; n += Lanes) {
-        number psi[components];
+    const std::size_t psi_step = this->psi_step();
+    T* const psi = this->psi(0);
+    for (std::size_t k = p.first_arrival; k < p.last_arrival; ++k) {
+      const arrival* a = &arrivals_[k];
+      const T* from = sent;
+      T* to = batch(a->batch);
+      T* shown = psi + a->cell;
+      for (std::int32_t left = a->nodes; left > 0; left -= Lanes) {
+        const std::uint32_t lanes = base::lanes_of(std::min(left, Lanes));
         Model::template arrive<number>(
             [&]<int C, int I>(detail::number<C>, detail::number<I>)
-                TETRAPORE_INLINE { return number::load(from[I] + n + static_cast<std::size_t>(C) * component_step); },
+                TETRAPORE_INLINE { return number::load(from + a->from[I] + C * component_step); },
             [&]<int C, int K>(detail::number<C>, detail::number<K>, const number& value) TETRAPORE_INLINE {
-              value.store(to + n * static_cast<std::ptrdiff_t>(numbers) + (C * moments + K) * width);
+              value.store(to + (C * moments + K) * width);
               if constexpr (K == 0) {
-                psi[C] = model.potential(number(static_cast<T>(model.reference[C])) + value);
+                T* const now = shown + C * psi_step;
+                number::select(lanes, model.potential(number(static_cast<T>(model.reference[C])) + value),
+                               number::load(now))
+                    .store(now);
               }
             });
-        for (std::size_t c = 0; c < components; ++c) {
-          if (run.nodes - n < Lanes) {
-            psi[c] = number::select(base::lanes_of(run.nodes - n), psi[c], number::load(shown[c] + n));
-          }
-          psi[c].store(shown[c] + n);
-        }
+        from += width;
+        to += numbers * width;
+        shown += width;
+        forget(a);
       }
-      if (run.what.kind == site_kind::reservoir) {
-        for (std::size_t c = 0; c < components; ++c) {
-          std::fill_n(shown[c], run.nodes, shown_by(run.what.tag, c));
-        }
+    }
+    for (std::size_t k = p.first_held_cells; k < p.last_held_cells; ++k) {
+      const held_cells& h = held_cells_[k];
+      for (std::size_t c = 0; c < components; ++c) {
+        std::fill_n(psi + c * psi_step + h.cell, h.nodes, shown_by(h.tag, c));
       }
     }
   }
@@ -532,7 +562,7 @@ class simulation<Model, T, storage::moments, Lanes> : public detail::surrounding
       for (std::size_t r = 0; r < rows_.runs().size(); ++r) {
         const run_type& run = rows_.runs()[r];
         for (std::int32_t n = 0; n < run.nodes; ++n) {
-          const std::size_t at = state_of_run_[r] + static_cast<std::size_t>(n);
+          const std::size_t at = batch_of_run_[r] * width + static_cast<std::size_t>(n);
           const T excess = state_[(at / width * numbers + c * moments) * width + at % width];
           this->psi(c)[run.cell + n] = run.what.kind == site_kind::reservoir
                                            ? shown_by(run.what.tag, c)
@@ -546,16 +576,17 @@ class simulation<Model, T, storage::moments, Lanes> : public detail::surrounding
   bool stale_ = true;  ///< whether ψ has to be worked out from moments, walls and reservoirs
   std::size_t plane_step_ = 0;
   std::size_t sent_step_ = 0;
-  detail::aligned_vector<T> state_;          ///< the moments of a batch side by side
-  std::vector<std::uint32_t> state_of_run_;  ///< where its nodes are in the order of batches
-  std::vector<std::uint32_t> batch_lane_;    ///< the same of each node
+  detail::aligned_vector<T> state_;  ///< the moments of a batch side by side
+  std::size_t batches_ = 0;
+  std::vector<std::uint32_t> batch_of_run_;  ///< its first
+  std::vector<std::uint32_t> batch_lane_;    ///< of each node: width × its batch and its lane there
   detail::aligned_vector<T> sent_;           ///< populations that have left the planes in use, slot by slot
   std::vector<strip> strips_;
-  detail::aligned_vector<T> late_state_;  ///< moments of late runs
-  detail::aligned_vector<T> late_psi_;    ///< ψ of late runs, component by component
-  std::vector<late_run> early_;           ///< those that wait until the last strip has been swept
+  std::vector<late_run> early_;  ///< what waits until the last strip has been swept
   std::vector<departure> departures_;
+  std::vector<held_departure> held_departures_;
   std::vector<arrival> arrivals_;
+  std::vector<held_cells> held_cells_;
   std::vector<link> links_;
 };
 

@@ -117,14 +117,19 @@ class surroundings {
         throw parameter_error("collision", "tau = " + short_number(c.tau), "more than 0.5");
       }
     }
-    psi_step_ = apart(static_cast<std::size_t>(cell_of_wall(0)) + tags + beyond);
+    lay_psi(0);
+    walls_.fill(model_.reference);
+    reservoirs_.fill(model_.reference);
+    make_images();
+  }
+
+  /// ψ of all cells, and of so many that belong to no place, as at the reference densities.
+  void lay_psi(std::size_t more) {
+    psi_step_ = apart(static_cast<std::size_t>(first_free_cell()) + more + beyond);
     psi_.resize(beyond + components * psi_step_);
     for (std::size_t c = 0; c < components; ++c) {
       std::fill_n(psi(c), psi_step_, static_cast<T>(model_.potential(model_.reference[c])));
     }
-    walls_.fill(model_.reference);
-    reservoirs_.fill(model_.reference);
-    make_images();
   }
 
   /// Equilibria of all nodes: `of(place, rho, u)` says of which density and velocity, `put(component, node, f)` takes
@@ -161,6 +166,10 @@ class surroundings {
   [[nodiscard]] std::int32_t cell_of_wall(std::uint8_t tag) const noexcept {
     return rows_.face() + static_cast<std::int32_t>(rows_.longest() + width) + tag;
   }
+  /// Behind all cells that show something.
+  [[nodiscard]] std::int32_t first_free_cell() const noexcept {
+    return cell_of_wall(0) + static_cast<std::int32_t>(tags);
+  }
   /// The lanes of a batch whose nodes belong to a run.
   [[nodiscard]] static constexpr std::uint32_t lanes_of(std::ptrdiff_t left) noexcept {
     return static_cast<std::uint32_t>((std::uint64_t{1} << static_cast<std::size_t>(left)) - 1);
@@ -169,12 +178,14 @@ class surroundings {
   void show_images(std::size_t first, std::size_t last) noexcept {
     for (std::size_t k = first; k < last; ++k) {
       const auto& image = images_[k];
-      for (std::size_t c = 0; c < components; ++c) {
-        T sum(0);
-        for (std::size_t s = 0; s < image.count; ++s) {
-          sum += image.weight[s] * psi(c)[image.from[s]];
+      std::array<T, components> sum{};
+      for (std::size_t s = 0; s < image.count; ++s) {
+        for (std::size_t c = 0; c < components; ++c) {
+          sum[c] += image.weight[s] * psi(c)[image.from[s]];
         }
-        psi(c)[image.cell] = sum;
+      }
+      for (std::size_t c = 0; c < components; ++c) {
+        psi(c)[image.cell] = sum[c];
       }
     }
   }
