@@ -238,7 +238,7 @@ template <class Simulation>
 /// Permeability along an axis with `nodes` along the box's first axis: the flux under a body force, at the limit of no
 /// inertia.
 /// \par Domain  spheres that leave fluid between them; a box of a whole number of nodes
-/// \par Accuracy  simple cubic spheres of solid fraction 0.34 to 0.52: 1 % at 20 to 30 nodes to the period, 0.1 % at
+/// \par Accuracy  simple cubic spheres of solid fraction 0.34 to 0.52: 0.5 % at 24 nodes to the period, 0.1 % at
 ///                80; a random packing of fraction 0.60: +0.7, −1.4, −1.7, −1.3 % at 4.7, 6.3, 9.4, 12.6 nodes to the
 ///                radius, since every fifth wall link is cut on both sides there
 /// \par Source  curved_walls
