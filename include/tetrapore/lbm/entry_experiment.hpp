@@ -30,32 +30,46 @@ namespace lbm {
 /// The measured pairs of `calibrate_pair`: G = 1.8 leaves an interface of 2.9 nodes and slow spurious currents.
 inline constexpr calibrated_pair pair_18{1.8, 1.003, 1.99526, 0.5, 0.0877, 0.0870, 0.14};
 
-/// What an entry pressure measured with r_in nodes is to be multiplied by: films and interfaces of finite width.
-/// \par Domain    θ = 0, grains retracted by 1.1 nodes, the pair of G = 1.8; r_in from 2 nodes
-/// \par Accuracy  see entry_error. Calibrated on three equal touching spheres at r_in = 2.5 to 8.5 nodes alone, against
-///                their Surface Evolver value
-[[nodiscard]] constexpr double entry_correction(double inscribed) noexcept {
-  return 1 + (0.12 + 0.6 / inscribed) / inscribed;
+/// Contact angles above 0 at which entry pressures were compared with Surface Evolver. \par Units  θ [rad]
+[[nodiscard]] constexpr bool entry_angle_measured(double contact_angle) noexcept {
+  constexpr double degree = pi<double> / 180;
+  return contact_angle > 9.9 * degree && contact_angle < 60.1 * degree;
+}
+
+/// What an entry pressure measured with r_in nodes is to be multiplied by: films and interfaces of finite width. 1 at
+/// angles that were not measured.
+/// \par Units     θ [rad]
+/// \par Domain    grains retracted as entry_retraction says, the pair of G = 1.8; r_in from 2 nodes
+/// \par Accuracy  see entry_error. Calibrated on three equal spheres alone, against their Surface Evolver values: θ = 0 on
+///                touching ones at r_in = 2.5 to 8.5 nodes, above 0 on touching ones and gaps of 0.4 R at θ = 40° and
+///                r_in = 2 to 6
+[[nodiscard]] constexpr double entry_correction(double inscribed, double contact_angle = 0) noexcept {
+  if (contact_angle == 0) {
+    return 1 + (0.12 + 0.6 / inscribed) / inscribed;
+  }
+  return entry_angle_measured(contact_angle) ? 1 + (-0.15 + 0.85 / inscribed) / inscribed : 1;
 }
 
 /// What is left of the error behind correction and retraction, relative: the largest over throats that they were not
 /// calibrated on, against Surface Evolver or, unequal grains, the least plane value.
 /// \par Units     θ [rad]
 /// \par Accuracy  θ = 0 (gaps 0.2 and 0.4 R, unequal grains): largest found 4 % from r_in = 4 to 8.5 nodes, 6 % at 3,
-///                14 % at 2 to 2.5.
-///                Above: −4.8 to +3.1 % at r_in = 4 (touching and gaps of 0.05 and 0.4 R at 40°, 0.2 R at 20° and
-///                60°), +2.5 % at r_in = 6. NaN between 0 and 20° and above 60°: not measured
+///                14 % at 2 to 2.5. Above (docs/campaigns/throat_angles.json): see docs/throat_experiment.md. NaN at
+///                angles that were not measured: between 0 and 10° and above 60°
 [[nodiscard]] constexpr double entry_error(double inscribed, double contact_angle = 0) noexcept {
-  if (contact_angle != 0 && !(contact_angle > 0.34 && contact_angle < 1.06)) {
-    return quiet_nan<double>;
-  }
   constexpr double fine = 4;  // nodes
-  return inscribed < fine ? 0.05 * fine * fine / (inscribed * inscribed) : 0.05;
+  if (contact_angle == 0) {
+    return inscribed < fine ? 0.05 * fine * fine / (inscribed * inscribed) : 0.05;
+  }
+  constexpr double large_angle = 45 * pi<double> / 180;
+  const double coarse = inscribed < fine ? 0.09 : 0.05;
+  return !entry_angle_measured(contact_angle) ? quiet_nan<double> : contact_angle > large_angle ? 0.12 : coarse;
 }
 
 /// Nodes by which grains shrink so that walls, and at θ = 0 the film on them, are where they should be.
-/// \par Accuracy  θ = 0: that of entry_correction and, in tubes without one, see tube_experiment.hpp; above 0 taken
-///                from equal spheres at θ = 40°, gap 0.2 R, r_in = 4 nodes; see entry_error
+/// \par Accuracy  θ = 0: that of entry_correction and, in tubes without one, see tube_experiment.hpp; above 0 where
+///                touching spheres and those with gaps of 0.4 R at θ = 40°, r_in = 4 nodes are right in the mean: errors
+///                of +7.9, −0.7 and −8.2 % at 0.25, 0.5 and 0.75 nodes
 [[nodiscard]] constexpr double entry_retraction(double contact_angle) noexcept { return contact_angle > 0 ? 0.5 : 1.1; }
 
 /// What an entry experiment is made of.
@@ -203,7 +217,7 @@ class entry_experiment {
   }
   /// By what the middle of a bracket is multiplied: 1 where nothing is calibrated.
   [[nodiscard]] double correction() const noexcept {
-    return set_up_.contact_angle == 0 && covered() ? entry_correction(inscribed()) : 1;
+    return covered() ? entry_correction(inscribed(), set_up_.contact_angle) : 1;
   }
 
   /// A bracket as narrow as asked where the entry pressure is expected, `factor` × the least plane value less the
