@@ -17,7 +17,6 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 /// \file
@@ -186,7 +185,7 @@ class entry_experiment {
     if (!(s.rules.still > 0) || !(s.rules.still_mass > 0) || s.rules.most_steps < 1000 || !(s.patience > 0)) {
       throw parameter_error("hold", "no motion that counts as rest, or fewer than 1000 steps", "more");
     }
-    check_pair();
+    check_pair<Model>(s.pair, s.tau);
     if (!(inscribed() >= 2 * (1 - 1e-12))) {
       throw parameter_error("throat", "an inscribed circle of " + short_number(inscribed()) + " nodes",
                             "a radius of 2 or more: films and interfaces are as wide");
@@ -334,37 +333,6 @@ class entry_experiment {
   /// Correction and error were measured with the pair of G = 1.8, τ = 1 and the retraction of entry_retraction.
   [[nodiscard]] bool covered() const noexcept {
     return !set_up_.retraction && set_up_.tau == 1 && set_up_.pair.attraction == pair_18.attraction;
-  }
-
-  /// The pair has the factor and the tension that were measured: as the table has them or, where it has none, as a
-  /// flat interface shows them now.
-  void check_pair() const {
-    const calibrated_pair& pair = set_up_.pair;
-    double factor = 0;
-    double tension = 0;
-    constexpr bool in_table = std::is_same_v<typename Model::collision_type, bgk> &&
-                              std::is_same_v<decltype(Model::potential), linear_potential>;
-    constexpr auto forcing = Model::forcing_type::carries_source ? forcing_kind::guo : forcing_kind::velocity_shift;
-    if (const auto known = calibrated(forcing, set_up_.tau, pair.attraction); in_table && known.ok()) {
-      factor = known.value.factor;
-      tension = surface_tension(known.value, pair.main);
-    } else {
-      const auto found = measure_pair<Model>(pair.attraction, set_up_.tau, pair.main);
-      if (!found.ok()) {
-        throw parameter_error("mixture",
-                              "G = " + short_number(pair.attraction) + ", tau = " + short_number(set_up_.tau) +
-                                  ", whose flat interface does not come to rest: " + describe(found.reason),
-                              "two phases");
-      }
-      factor = found.value.factor;
-      tension = found.value.surface_tension;
-    }
-    const auto differs = [](double a, double b) { return !(std::abs(a - b) <= 0.02 * std::abs(b)); };
-    if (differs(pair.factor, factor) || differs(pair.surface_tension, tension)) {
-      throw parameter_error(
-          "mixture", "c = " + short_number(pair.factor) + ", surface tension = " + short_number(pair.surface_tension),
-          short_number(factor) + ", " + short_number(tension) + " as measured");
-    }
   }
 
   /// The column of nodes that is furthest from the grains.

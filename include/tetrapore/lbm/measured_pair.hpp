@@ -4,8 +4,12 @@
 #include "tetrapore/lbm/calibration.hpp"
 #include "tetrapore/lbm/flat_interface.hpp"
 
+#include <cmath>
+#include <string>
+#include <type_traits>
+
 /// \file
-/// The pair of a mixture that no table knows, measured on the spot.
+/// Pairs as they are measured: of a mixture that no table knows on the spot, and whether one is what it claims.
 
 namespace tetrapore::inline TETRAPORE_ABI {
 namespace lbm {
@@ -23,6 +27,37 @@ template <class Model>
                         Model::components>;
   const flat_interface f = measure_flat_interface<plane>({.attraction = attraction, .tau = tau, .main = main});
   return {{attraction, f.main, f.factor, (f.factor - 1) / 2, f.tension, f.tension, 0}, f.rest.end};
+}
+
+/// Throws parameter_error where factor or tension of a pair differ by 2 % from what was measured: in the table of
+/// measured mixtures or, where it has none, on a flat interface, now.
+template <class Model>
+void check_pair(const calibrated_pair& pair, double tau) {
+  double factor = 0;
+  double tension = 0;
+  constexpr bool in_table = std::is_same_v<typename Model::collision_type, bgk> &&
+                            std::is_same_v<decltype(Model::potential), linear_potential>;
+  constexpr auto forcing = Model::forcing_type::carries_source ? forcing_kind::guo : forcing_kind::velocity_shift;
+  if (const auto known = calibrated(forcing, tau, pair.attraction); in_table && known.ok()) {
+    factor = known.value.factor;
+    tension = surface_tension(known.value, pair.main);
+  } else {
+    const auto found = measure_pair<Model>(pair.attraction, tau, pair.main);
+    if (!found.ok()) {
+      throw parameter_error("mixture",
+                            "G = " + short_number(pair.attraction) + ", tau = " + short_number(tau) +
+                                ", whose flat interface does not come to rest: " + describe(found.reason),
+                            "two phases");
+    }
+    factor = found.value.factor;
+    tension = found.value.surface_tension;
+  }
+  const auto differs = [](double a, double b) { return !(std::abs(a - b) <= 0.02 * std::abs(b)); };
+  if (differs(pair.factor, factor) || differs(pair.surface_tension, tension)) {
+    throw parameter_error(
+        "mixture", "c = " + short_number(pair.factor) + ", surface tension = " + short_number(pair.surface_tension),
+        short_number(factor) + ", " + short_number(tension) + " as measured");
+  }
 }
 
 }  // namespace lbm

@@ -39,12 +39,14 @@ class ring_experiment {
  public:
   using simulation_type = simulation<Model, T, Storage>;
 
+  /// Throws parameter_error for a pair that is not as measured.
   /// \param depth  from the plane of the centres to each reservoir, in radii of the largest grain
   explicit ring_experiment(const entry_set_up& s, double depth = 0.8)
       : set_up_(s),
         throat_(s.throat, s.sides, resolution(depth)),
         fluids_({s.pair.attraction, s.pair.factor, s.pair.common, s.pair.main}, s.gas_share,
                 throat_.template sites<d3q19>(), throat_.middle(), reservoir_above, reservoir_below, s.tau) {
+    check_pair<Model>(s.pair, s.tau);
     fluids_.set_wall(grain_wall, wall_densities(fluids_.pair(), s.contact_angle));
     fluids_.set_wall(liquid_wall, wall_densities(fluids_.pair(), 0));
     fluids_.set_wall(0, wall_densities(fluids_.pair(), 0));
