@@ -27,13 +27,10 @@ enum class hold_end : std::uint8_t {
   dissolved,   ///< a phase is gone, or no densities belong to the value
   drifting,    ///< the interface stands, but mass goes on moving
   step_limit,  ///< the interface still moves after the most steps that are allowed
-  withdrew,    ///< the fluid went back where no meniscus can rest: the value lies below
   flowing      ///< the fluids show another value than was set: something flows through the interface
 };
 
-[[nodiscard]] constexpr bool lies_below(hold_end e) noexcept {
-  return e == hold_end::stable || e == hold_end::withdrew;
-}
+[[nodiscard]] constexpr bool lies_below(hold_end e) noexcept { return e == hold_end::stable; }
 [[nodiscard]] constexpr verdict verdict_of(hold_end e) noexcept {
   return lies_below(e) || e == hold_end::passed ? verdict::ok : verdict::failed;
 }
@@ -45,7 +42,6 @@ enum class hold_end : std::uint8_t {
     case hold_end::dissolved: return "a phase dissolved";
     case hold_end::drifting: return "the interface stands, but mass drifts";
     case hold_end::step_limit: return "the interface still moves after the most steps allowed";
-    case hold_end::withdrew: return "the fluid went back";
     case hold_end::flowing: return "the fluids show another value than was set";
   }
   return "not an end of a hold";

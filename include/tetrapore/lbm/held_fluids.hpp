@@ -53,7 +53,7 @@ inline constexpr storage leanest_storage = requires {
 /// \par Units  lattice units: nodes, steps
 /// \tparam T        float or double
 /// \tparam Storage  in_place, or moments where τ is 1
-template <std::floating_point T, class Model, storage Storage = storage::in_place>
+template <std::floating_point T, class Model, storage Storage = leanest_storage<Model>>
 class held_fluids {
   static_assert(Storage != storage::two_lattices, "held_fluids takes storage::in_place or storage::moments");
 
