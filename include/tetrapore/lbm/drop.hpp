@@ -24,7 +24,7 @@ struct drop_set_up {
   double base = 32;              ///< radius of the disc that the drop wets [nodes]
   int margin = 12;               ///< nodes beyond the drop
   int skipped = 4;               ///< rows beside the wall that are not fitted
-  rest_options rest{1000, 3e-5, 3, 80000};
+  rest_options rest{1000, 1e-4, 3, 40000};
 };
 
 /// What a drop shows.

@@ -210,16 +210,6 @@ TEST_CASE("tubes, drops and bridges at rest show the entry pressures, angles and
     }
   }
 
-  for (const auto& [angle, base] : {std::pair{25.0, 56.0}, {40.0, 40.0}, {60.0, 32.0}}) {
-    const auto d = book.row(name_of("drop", angle, base), [&] {
-      const drop_result r = drop_on_wall<>({.mixture = m, .contact_angle = angle * degree, .base = base});
-      REQUIRE(r.rest.end == hold_end::stable);
-      return std::vector<double>{r.angle / degree, r.at_wall / degree, r.radius, r.residual, r.tension};
-    });
-    CAPTURE(angle);
-    CHECK(std::abs(d[0] - angle) < (angle < 40 ? 3 : 1));
-  }
-
   // bridges of one suction, finer and finer: where they are compared, the force changes little with the suction
   for (const auto& [angle, suction] : {std::pair{0.0, 0.5}, {20.0, 0.0}, {40.0, -0.8}}) {
     for (const double radius : {16.0, 24.0, 32.0, 40.0}) {
@@ -234,6 +224,15 @@ TEST_CASE("tubes, drops and bridges at rest show the entry pressures, angles and
       CHECK(std::abs(b[1] / b[2] - 1) < (radius < 24 ? 0.15 : 0.05));
       CHECK((angle > 0 || b[6] == 0));
     }
+  }
+  for (const auto& [angle, base] : {std::pair{60.0, 26.0}, {40.0, 36.0}, {30.0, 44.0}}) {
+    const auto d = book.row(name_of("drop", angle, base), [&] {
+      const drop_result r = drop_on_wall<>({.mixture = m, .contact_angle = angle * degree, .base = base});
+      REQUIRE(r.rest.end == hold_end::stable);
+      return std::vector<double>{r.angle / degree, r.at_wall / degree, r.radius, r.residual, r.tension};
+    });
+    CAPTURE(angle);
+    CHECK(std::abs(d[0] - angle) < (angle < 40 ? 3 : 1));
   }
   book.finish();
 }
