@@ -305,9 +305,9 @@ class simulation<Model, T, storage::moments, Lanes> : public detail::surrounding
         most = std::max(most, most_cells(sending(rows * k / count, rows * (k + 1) / count)));
       }
     } while (2 * (count + 1) <= rows && most * per_cell > in_cache);
-    plane_step_ = (most + 4 * beyond) / per_line * per_line;
-    sent_step_ = apart((forward_planes + 1) * plane_step_);
-    sent_.assign(components * directions * sent_step_ + beyond, T(0));
+    sent_step_ = apart(most + beyond);
+    plane_step_ = components * directions * sent_step_;
+    sent_.assign((forward_planes + (wraps(0) ? 1 : 0)) * plane_step_ + beyond, T(0));
     std::vector<std::uint32_t> row_of_cell(rows_.cells());
     for (std::size_t r = 0; r < rows_.rows().size(); ++r) {
       const auto& of = rows_.rows()[r];
@@ -451,7 +451,8 @@ class simulation<Model, T, storage::moments, Lanes> : public detail::surrounding
     return state_.data() + static_cast<std::size_t>(b) * (numbers * width);
   }
 
-  /// What leaves the nodes of a plane. Numbers beyond the end of a run are nobody's or written later.
+  /// What leaves the nodes of a plane. Numbers beyond the end of a run are nobody's or written later; reservoirs, which
+  /// come last, write none.
   void send(const strip_plane& p, std::size_t x) {
     const Model model = model_;
     const std::size_t sent_step = sent_step_;
@@ -462,12 +463,8 @@ class simulation<Model, T, storage::moments, Lanes> : public detail::surrounding
       return [from]<int C, int K>(detail::number<C>, detail::number<K>)
                  TETRAPORE_INLINE { return number::load(from + (C * moments + K) * width); };
     };
-    const auto give_to = [&](std::uint32_t to) TETRAPORE_INLINE {
-      return [&planes, sent_step, to]<int C, int I>(detail::number<C>, detail::number<I>, const number& value)
-                 TETRAPORE_INLINE {
-                   value.store(planes[1 + lattice_type::velocity[I][0]] + to +
-                               (static_cast<std::size_t>(C) * directions + I) * sent_step);
-                 };
+    const auto place_of_sent = [&]<int C, int I>(detail::number<C>, detail::number<I>) TETRAPORE_INLINE {
+      return planes[1 + lattice_type::velocity[I][0]] + (static_cast<std::size_t>(C) * directions + I) * sent_step;
     };
     for (std::size_t k = p.first_departure; k < p.last_departure; ++k) {
       const departure* d = &departures_[k];
@@ -486,7 +483,8 @@ class simulation<Model, T, storage::moments, Lanes> : public detail::surrounding
             moment_of(from),
             [&]<int C, int I>(detail::number<C>, detail::number<I>)
                 TETRAPORE_INLINE { return number::load(shown + d->seen[I - 1] + C * psi_step); },
-            give_to(to));
+            [&]<int C, int I>(detail::number<C> c, detail::number<I> i, const number& value)
+                TETRAPORE_INLINE { value.store(place_of_sent(c, i) + to); });
         from += numbers * width;
         shown += width;
         to += static_cast<std::uint32_t>(width);
@@ -501,7 +499,13 @@ class simulation<Model, T, storage::moments, Lanes> : public detail::surrounding
       }
       const T* from = batch(d.batch);
       for (std::int32_t n = 0; n < d.nodes; n += Lanes, from += numbers * width) {
-        model.template depart_held<number>(rho, moment_of(from), give_to(d.to + static_cast<std::uint32_t>(n)));
+        const std::uint32_t lanes = base::lanes_of(std::min(d.nodes - n, Lanes));
+        model.template depart_held<number>(
+            rho, moment_of(from),
+            [&]<int C, int I>(detail::number<C> c, detail::number<I> i, const number& value) TETRAPORE_INLINE {
+              T* const to = place_of_sent(c, i) + d.to + n;
+              number::select(lanes, value, number::load(to)).store(to);
+            });
       }
     }
   }

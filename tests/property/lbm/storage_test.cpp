@@ -49,7 +49,10 @@ site_map<d3q19> bounded(const place& size) {
   box.high[2] = face_kind::mirror;
   return {box, [size](int x, int y, int z) {
             const double d = std::hypot(x - 0.4 * size[0], y - 0.5 * size[1], z - 0.6 * size[2]);
-            return site{d < 3 ? site_kind::solid : y == 2 && z > 15 ? site_kind::reservoir : site_kind::fluid, 3};
+            return site{d < 3                          ? site_kind::solid
+                        : y == 2 && (z > 15 || z == 0) ? site_kind::reservoir
+                                                       : site_kind::fluid,
+                        3};
           }};
 }
 
