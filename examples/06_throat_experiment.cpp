@@ -112,11 +112,15 @@ int run(const support::throat_job& job) {
   const std::uint64_t before = search.now().updates;
   while (search.running()) {
     const double value = search.next();
-    const lbm::hold_report r = experiment.hold(
-        value, [&](const lbm::hold_report& so_far) { series.add(experiment, search.now().steps + so_far.steps); });
-    if (r.steps > 0) {
-      series.add(experiment, search.now().steps + r.steps);
-    }
+    std::uint64_t shown = 0;  // steps of this hold's last picture
+    const auto show = [&](const lbm::hold_report& so_far) {
+      if (so_far.steps > shown) {
+        series.add(experiment, search.now().steps + so_far.steps);
+        shown = so_far.steps;
+      }
+    };
+    const lbm::hold_report r = experiment.hold(value, show);
+    show(r);
     std::fprintf(stderr, "p_c = %.5f: apex at %.3f r_in, %s\n", value, r.position / experiment.inscribed(),
                  describe(r.end));
     if (lies_below(r.end)) {
