@@ -18,8 +18,8 @@
 ///
 /// A cell is a node, or a place that some node's population leaves to without being one: in a wall, beyond a mirror,
 /// beyond an end of the box. Cells of a row (z runs, or y where that makes fewer batches) lie side by side, so the
-/// neighbours of side by side nodes do too, walls or none, and a step runs along rows without asking. What lies in a cell that is
-/// no node belongs to one link: it is copied from and to where the link really leads.
+/// neighbours of side by side nodes do too, walls or none, and a step runs along rows without asking. What lies in a
+/// cell that is no node belongs to one link: it is copied from and to where the link really leads.
 
 namespace tetrapore::inline TETRAPORE_ABI {
 namespace lbm {
