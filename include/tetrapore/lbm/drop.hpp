@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 /// \file
 /// A drop on a flat wall, a quarter of it between mirrors: the contact angle in three dimensions.
@@ -34,6 +35,7 @@ struct drop_result {
   double radius = 0;    ///< of the sphere [nodes]
   double residual = 0;  ///< root mean square distance of the surface from the sphere, row by row [nodes]
   double tension = 0;   ///< p_c × radius / 2, over σ of the table at these densities
+  double main = 0;      ///< mean main density in the end
   rest_report rest;
 };
 
@@ -69,14 +71,13 @@ template <std::floating_point T = float, class Model = mixture<d3q19, bgk>, stor
     return d;
   }
   double centre = 0;
-  double main = o.mixture.main;
   const auto fit = [&]() -> double {
     const auto gas = at(side - 1, side - 1, height - 1);
     const auto liquid = at(0, 0, o.skipped);
     if (!(gas[0] > gas[1]) || !(liquid[1] > liquid[0])) {
       return std::isfinite(gas[0] + gas[1] + liquid[0] + liquid[1]) ? 0 : quiet_nan<double>;
     }
-    main = (gas[0] + liquid[1]) / 2;
+    d.main = (gas[0] + liquid[1]) / 2;
     std::vector<std::array<double, 2>> rows;  // height, squared radius of the section + height²
     for (int z = o.skipped; z < height; ++z) {
       double wet = 0;
@@ -113,11 +114,11 @@ template <std::floating_point T = float, class Model = mixture<d3q19, bgk>, stor
       d.residual += off * off / n;
     }
     d.residual = std::sqrt(d.residual);
-    d.tension = (model.pressure(liquid) - model.pressure(gas)) * d.radius / 2 / surface_tension(o.mixture, main);
+    d.tension = (model.pressure(liquid) - model.pressure(gas)) * d.radius / 2 / surface_tension(o.mixture, d.main);
     return d.radius - centre;
   };
   reservoir_pair laid = rho.value;
-  for (const double still : {10 * o.rest.still, o.rest.still}) {
+  for (const double still : {10 * o.rest.still, o.rest.still, o.rest.still}) {
     lay_interface(s, laid, [&](const std::array<int, 3>& p) {
       return std::hypot(p[0] + 0.5, p[1] + 0.5, p[2] + 0.5 + radius * std::cos(o.contact_angle)) - radius;
     });
@@ -128,8 +129,12 @@ template <std::floating_point T = float, class Model = mixture<d3q19, bgk>, stor
     if (r.end != hold_end::stable) {
       return d;
     }
-    laid.gas[0] += o.mixture.main - main;
-    laid.liquid[1] += o.mixture.main - main;
+    const double miss = o.mixture.main - d.main;
+    if (std::abs(miss) < 0.003 * o.mixture.main) {
+      break;
+    }
+    laid.gas[0] += miss;
+    laid.liquid[1] += miss;
   }
   d.angle = std::acos((axis_wall_shift - centre) / d.radius);
   d.at_wall = std::acos(-centre / d.radius);
