@@ -39,7 +39,7 @@ inline constexpr calibrated_pair pair_18{1.8, 1.003, 1.99526, 0.5, 0.0877, 0.087
 /// angles that were not measured.
 /// \par Units     θ [rad]
 /// \par Domain    grains retracted as entry_retraction says, the pair of G = 1.8; r_in from 2 nodes
-/// \par Accuracy  see entry_error. Calibrated on three equal spheres alone, against their Surface Evolver values: θ = 0 on
+/// \par Accuracy  see entry_error. Calibrated on three equal spheres against their Surface Evolver values: θ = 0 on
 ///                touching ones at r_in = 2.5 to 8.5 nodes, above 0 on touching ones and gaps of 0.4 R at θ = 40° and
 ///                r_in = 2 to 6
 [[nodiscard]] constexpr double entry_correction(double inscribed, double contact_angle = 0) noexcept {
@@ -67,9 +67,8 @@ inline constexpr calibrated_pair pair_18{1.8, 1.003, 1.99526, 0.5, 0.0877, 0.087
 }
 
 /// Nodes by which grains shrink so that walls, and at θ = 0 the film on them, are where they should be.
-/// \par Accuracy  θ = 0: that of entry_correction and, in tubes without one, see tube_experiment.hpp; above 0 where
-///                touching spheres and those with gaps of 0.4 R at θ = 40°, r_in = 4 nodes are right in the mean: errors
-///                of +7.9, −0.7 and −8.2 % at 0.25, 0.5 and 0.75 nodes
+/// \par Accuracy  θ = 0: that of entry_correction. Above, touching spheres and those with gaps of 0.4 R at θ = 40°,
+///                r_in = 4 nodes, are right in the mean: +7.9, −0.7 and −8.2 % at 0.25, 0.5 and 0.75 nodes
 [[nodiscard]] constexpr double entry_retraction(double contact_angle) noexcept { return contact_angle > 0 ? 0.5 : 1.1; }
 
 /// What an entry experiment is made of.
