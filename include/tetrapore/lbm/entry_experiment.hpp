@@ -54,8 +54,8 @@ inline constexpr calibrated_pair pair_18{1.8, 1.003, 1.99526, 0.5, 0.0877, 0.087
 /// \par Units     θ [rad]
 /// \par Accuracy  θ = 0 (gaps 0.2 and 0.4 R, unequal grains): largest found 4 % from r_in = 4 to 8.5 nodes, 6 % at 3,
 ///                14 % at 2 to 2.5. θ = 10 to 40° (equal spheres, docs/campaigns/throat_angles.json): 5 % from 2 to 6
-///                nodes, a bracket's half width of 1.2 % included. θ = 60°: 8 % there, 10 % between brackets of different
-///                beginnings. NaN at angles that were not measured: between 0 and 10° and above 60°
+///                nodes, a bracket's half width of 1.2 % included. θ = 60°: 8 % there, 10 % between brackets that begin
+///                elsewhere. NaN at angles that were not measured: between 0 and 10° and above 60°
 [[nodiscard]] constexpr double entry_error(double inscribed, double contact_angle = 0) noexcept {
   constexpr double fine = 4;  // nodes
   if (contact_angle == 0) {
