@@ -23,6 +23,7 @@ namespace lbm {
 /// last, so that the long ones do well at the front. Tasks must not share what they write. What a task makes inside
 /// itself lies in the memory next to its core; so let it make its experiment there.
 /// Throws what the first task that failed has thrown, when all threads have stopped; no task begins behind a failure.
+/// Where a thread cannot be started it throws std::system_error, likewise when the others have stopped.
 /// \param threads  0: as many as the machine has cores
 template <class Task>
   requires std::invocable<Task&, std::size_t>
@@ -46,14 +47,18 @@ void farm(std::size_t tasks, Task task, std::size_t threads = 0) {
       }
     }
   };
-  std::vector<std::thread> others;
-  others.reserve(workers);
-  for (std::size_t k = 1; k < workers; ++k) {
-    others.emplace_back(work);
-  }
-  work();
-  for (std::thread& t : others) {
-    t.join();
+  {
+    std::vector<std::jthread> others;  // joined at the end of the block
+    others.reserve(workers);
+    try {
+      for (std::size_t k = 1; k < workers; ++k) {
+        others.emplace_back(work);
+      }
+    } catch (...) {
+      next = tasks;
+      throw;
+    }
+    work();
   }
   if (failure) {
     std::rethrow_exception(failure);
