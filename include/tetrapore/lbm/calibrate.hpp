@@ -10,11 +10,6 @@
 namespace tetrapore::inline TETRAPORE_ABI {
 namespace lbm {
 
-/// The kind of a forcing scheme.
-template <class Forcing>
-inline constexpr forcing_kind kind_of_forcing =
-    Forcing::carries_source ? forcing_kind::guo : forcing_kind::velocity_shift;
-
 /// A row, and why the measurement ended: `stable` where all of it stands.
 struct calibration_run {
   calibrated_mixture mixture{};

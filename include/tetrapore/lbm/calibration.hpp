@@ -132,9 +132,11 @@ namespace detail {
 }
 
 /// The densities that a wall shows where the contact angle is θ; at 0 those of the liquid itself, so that a film covers
-/// the wall. Component 1 is the liquid. Throws parameter_error where the pair is not in the table: c tells its scheme.
+/// the wall. Component 1 is the liquid. Throws parameter_error where the table does not know the pair with this forcing
+/// and τ, or knows it with a c that differs by 1 %: angles above 0 are those of the table's rows alone.
 /// \par Units     lattice units; θ [rad], 0 to π
-[[nodiscard]] inline std::array<double, 2> wall_densities(const coexistence& pair, double contact_angle) {
+[[nodiscard]] inline std::array<double, 2> wall_densities(const coexistence& pair, forcing_kind forcing, double tau,
+                                                          double contact_angle) {
   const auto dissolved = dissolved_density(pair);
   if (!dissolved.ok()) {
     throw parameter_error("mixture", describe(dissolved.reason), "two phases");
@@ -142,14 +144,14 @@ namespace detail {
   if (contact_angle == 0) {
     return wall_of_wettability(pair.main, dissolved.value, 1);
   }
-  for (const calibrated_mixture& m : calibrated_mixtures) {
-    const auto here = calibrated(m.forcing, m.tau, pair.attraction);
-    if (here.ok() && std::abs(here.value.factor - pair.factor) < 0.01 * pair.factor) {
-      return wall_of_wettability(pair.main, dissolved.value, wettability(here.value, contact_angle));
-    }
+  const auto row = calibrated(forcing, tau, pair.attraction);
+  if (!row.ok() || !(std::abs(row.value.factor - pair.factor) < 0.01 * pair.factor)) {
+    throw parameter_error(
+        "mixture",
+        "G = " + short_number(pair.attraction) + ", c = " + short_number(pair.factor) + ", tau = " + short_number(tau),
+        "one of the table of measured mixtures, whose contact angles are known");
   }
-  throw parameter_error("mixture", "G = " + short_number(pair.attraction) + ", c = " + short_number(pair.factor),
-                        "one of the table of measured mixtures, whose contact angles are known");
+  return wall_of_wettability(pair.main, dissolved.value, wettability(row.value, contact_angle));
 }
 
 }  // namespace lbm

@@ -27,7 +27,8 @@ enum class hold_end : std::uint8_t {
   dissolved,   ///< a phase is gone, or no densities belong to the value
   drifting,    ///< the interface stands, but mass goes on moving
   step_limit,  ///< the interface still moves after the most steps that are allowed
-  flowing      ///< the fluids show another value than was set: something flows through the interface
+  flowing,     ///< the fluids show another value than was set: something flows through the interface
+  missed       ///< at rest, but not at the density or suction that was asked for, however often it was laid again
 };
 
 [[nodiscard]] constexpr bool lies_below(hold_end e) noexcept { return e == hold_end::stable; }
@@ -43,6 +44,7 @@ enum class hold_end : std::uint8_t {
     case hold_end::drifting: return "the interface stands, but mass drifts";
     case hold_end::step_limit: return "the interface still moves after the most steps allowed";
     case hold_end::flowing: return "the fluids show another value than was set";
+    case hold_end::missed: return "at rest, but not at the density or suction asked for";
   }
   return "not an end of a hold";
 }
@@ -144,7 +146,18 @@ class threshold_search {
     memory_.lower = o.lower;
     memory_.upper = o.upper;
   }
-  threshold_search(const search_options& o, const memory& m) : threshold_search(o) { memory_ = m; }
+  /// Goes on from a memory with options of its own: a search that had ended goes on where they ask for a narrower
+  /// bracket or allow it to be widened more often.
+  threshold_search(const search_options& o, const memory& m) : threshold_search(o) {
+    memory_ = m;
+    if (m.end == search_end::converged || m.end == search_end::unbearable) {
+      memory_.end = search_end::running;
+    } else if (m.end == search_end::unbracketed && m.widenings < o.most_widenings) {
+      memory_.end = search_end::running;
+      reach_out();
+    }
+    settle();
+  }
 
   [[nodiscard]] const memory& now() const noexcept { return memory_; }
   [[nodiscard]] bool running() const noexcept { return memory_.end == search_end::running; }
@@ -174,15 +187,11 @@ class threshold_search {
       memory_.measured_lower = r.measured;
       memory_.position_lower = r.position;
       memory_.film_lower = r.film;
-      if (!(memory_.upper > held)) {
-        widen(memory_.upper, held * stride());
-      }
+      reach_out();
     } else if (r.end == hold_end::passed) {
       memory_.upper = held;
       memory_.upper_known = 1;
-      if (memory_.lower_known == 0) {
-        widen(memory_.lower, held / stride());
-      }
+      reach_out();
     } else if (r.end == hold_end::step_limit && memory_.creeping == 0) {
       memory_.creeping = held;
       return;
@@ -194,6 +203,20 @@ class threshold_search {
     } else {
       memory_.end = search_end::undecided;
     }
+    settle();
+  }
+
+ private:
+  /// Moves the end on that turned out to lie on the other side.
+  void reach_out() noexcept {
+    if (memory_.lower_known != 0 && !(memory_.upper > memory_.lower)) {
+      widen(memory_.upper, memory_.lower * stride());
+    } else if (memory_.upper_known != 0 && memory_.lower_known == 0) {
+      widen(memory_.lower, memory_.upper / stride());
+    }
+  }
+  /// What is known after a hold: whether the search has ended.
+  void settle() noexcept {
     if (running() && memory_.upper_known == 0 && memory_.ceiling > 0 && !(memory_.upper < memory_.ceiling)) {
       memory_.upper = (memory_.lower + memory_.ceiling) / 2;
       if (memory_.lower_known != 0 && narrow(memory_.lower, memory_.ceiling)) {
@@ -206,8 +229,6 @@ class threshold_search {
       memory_.end = search_end::converged;
     }
   }
-
- private:
   /// How far an end moves: further each time, at most to twice the value.
   [[nodiscard]] double stride() const noexcept {
     double by = options_.widen;

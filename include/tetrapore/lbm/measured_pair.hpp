@@ -18,8 +18,10 @@ namespace lbm {
 /// \par Units     lattice units; `main` is the density of each component in its own phase
 /// \par Domain    models of two components that relax with one τ
 /// \par Accuracy  factor and tension of the flat interface: those of measure_flat_interface. A curved one has 1 % more
-///                tension at τ = 1 and 0.7, 5 to 7 % at τ = 1.5 (table of measured mixtures); w is (c − 1)/2, which is
-///                right at τ = 1: a hold shows whether something flows
+///                tension at τ = 1 and 0.7, 5 to 7 % at τ = 1.5 (table of measured mixtures). w is (c − 1)/2: measured at
+///                τ = 1, elsewhere an assumption, so that a pair off τ = 1 is approximate: where w is wrong something
+///                flows through a meniscus at rest, and a hold that shows another p_c than was set says so.
+///                Entry pressures of such pairs have no stated discretisation
 /// \par Source    measure_flat_interface; its cost is about 0.2 s
 template <class Model>
 [[nodiscard]] outcome<calibrated_pair, hold_end> measure_pair(double attraction, double tau, double main = 1) {
@@ -37,7 +39,7 @@ void check_pair(const calibrated_pair& pair, double tau) {
   double tension = 0;
   constexpr bool in_table = std::is_same_v<typename Model::collision_type, bgk> &&
                             std::is_same_v<decltype(Model::potential), linear_potential>;
-  constexpr auto forcing = Model::forcing_type::carries_source ? forcing_kind::guo : forcing_kind::velocity_shift;
+  constexpr auto forcing = kind_of_forcing<typename Model::forcing_type>;
   if (const auto known = calibrated(forcing, tau, pair.attraction); in_table && known.ok()) {
     factor = known.value.factor;
     tension = surface_tension(known.value, pair.main);

@@ -28,7 +28,8 @@ struct rest_options {
   std::uint64_t most_steps = 60000;
 };
 
-/// How the wait ended: `hold_end::stable`, or why not.
+/// How the wait ended: `hold_end::stable`, or why not. Experiments that aim at a density or a suction and rest beside
+/// it say `hold_end::missed`; what they measured there stands.
 struct rest_report {
   double change = 0;  ///< of the quantity in the last window, relative to it
   std::uint64_t steps = 0;

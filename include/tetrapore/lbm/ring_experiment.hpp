@@ -47,9 +47,11 @@ class ring_experiment {
         fluids_({s.pair.attraction, s.pair.factor, s.pair.common, s.pair.main}, s.gas_share,
                 throat_.template sites<d3q19>(), throat_.middle(), reservoir_above, reservoir_below, s.tau) {
     check_pair<Model>(s.pair, s.tau);
-    fluids_.set_wall(grain_wall, wall_densities(fluids_.pair(), s.contact_angle));
-    fluids_.set_wall(liquid_wall, wall_densities(fluids_.pair(), 0));
-    fluids_.set_wall(0, wall_densities(fluids_.pair(), 0));
+    constexpr auto forcing = kind_of_forcing<typename Model::forcing_type>;
+    fluids_.set_wall(grain_wall, wall_densities(fluids_.pair(), forcing, s.tau, s.contact_angle));
+    const auto wet = wall_densities(fluids_.pair(), forcing, s.tau, 0);
+    fluids_.set_wall(liquid_wall, wet);
+    fluids_.set_wall(0, wet);
   }
 
   [[nodiscard]] const entry_set_up& set_up() const noexcept { return set_up_; }

@@ -96,6 +96,16 @@ TEST_CASE("an experiment that is killed between holds goes on to the bit") {
   other.retraction = 1;
   entry_experiment<float> stranger(other);
   CHECK_THROWS_AS(static_cast<void>(stranger.restore(saved, options)), input_error);
+  other = s;
+  other.fitted = false;
+  entry_experiment<float> unfitted(other);
+  CHECK_THROWS_AS(static_cast<void>(unfitted.restore(saved, options)), input_error);
+  CHECK(second.result(resumed).correction == entry_correction(second.inscribed()));
+  other.fitted = true;
+  other.gas_share = 0.6;
+  entry_experiment<float> shared(other);
+  CHECK(shared.correction() == 1);
+  CHECK(std::isnan(shared.result(resumed).discretisation));
   entry_experiment<double> finer(s);
   CHECK_THROWS_WITH_AS(static_cast<void>(finer.restore(saved, options)),
                        "state: found moments in numbers of 4 bytes, expected moments in numbers of 8 bytes",

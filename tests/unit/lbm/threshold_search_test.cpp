@@ -199,6 +199,70 @@ TEST_CASE("a search that is taken up from its memory goes on as if it had never 
   }
 }
 
+TEST_CASE("a search that had ended and is taken up with a narrower bracket goes on to it") {
+  gate g{1.1};
+  threshold_search wide({.width = 0.1});
+  run(g, wide);
+  REQUIRE(wide.now().end == search_end::converged);
+  threshold_search narrow({.width = 0.01}, wide.now());
+  CHECK(narrow.running());
+  run(g, narrow);
+  CHECK(narrow.now().end == search_end::converged);
+  CHECK(narrow.now().lower <= 1.1);
+  CHECK(narrow.now().upper > 1.1);
+  CHECK(narrow.now().upper - narrow.now().lower <= 0.01 * narrow.value());
+  const auto holds = g.held.size();
+  threshold_search same({.width = 0.01}, narrow.now());
+  CHECK(!same.running());
+  threshold_search wider({.width = 0.1}, narrow.now());
+  CHECK(!wider.running());
+  CHECK(g.held.size() == holds);
+}
+
+TEST_CASE("a search that was stopped is over at once where a wider bracket is asked for and known") {
+  gate g{1.1};
+  threshold_search s({.width = 0.01});
+  while (s.now().lower_known == 0 || s.now().upper_known == 0) {
+    s.take(g.hold(s.next()));
+  }
+  REQUIRE(s.running());
+  const threshold_search wide({.width = 1}, s.now());
+  CHECK(wide.now().end == search_end::converged);
+}
+
+TEST_CASE("a search that ended for its options goes on when these allow it, and one without an answer does not") {
+  for (const double threshold : {0.01, 40.0}) {
+    gate g{threshold};
+    threshold_search short_of({.most_widenings = 1});
+    run(g, short_of);
+    REQUIRE(short_of.now().end == search_end::unbracketed);
+    const threshold_search again({.most_widenings = 1}, short_of.now());
+    CHECK(again.now().end == search_end::unbracketed);
+    threshold_search more({}, short_of.now());
+    run(g, more);
+    CHECK(more.now().end == search_end::converged);
+    CHECK(more.now().lower <= threshold);
+    CHECK(more.now().upper > threshold);
+  }
+  gate fragile{5};
+  fragile.bears = 0.9;
+  threshold_search coarse({.width = 0.1});
+  run(fragile, coarse);
+  REQUIRE(coarse.now().end == search_end::unbearable);
+  threshold_search fine({.width = 0.01}, coarse.now());
+  CHECK(fine.running());
+  run(fragile, fine);
+  CHECK(fine.now().end == search_end::unbearable);
+  CHECK(fine.now().ceiling - fine.now().lower <= 0.0101 * 0.9);
+
+  gate silent{1};
+  silent.failure = hold_end::missed;
+  threshold_search failed({});
+  run(silent, failed);
+  CHECK(verdict_of(hold_end::missed) == verdict::failed);
+  CHECK(threshold_search({.width = 0.001}, failed.now()).now().end == search_end::undecided);
+}
+
 TEST_CASE("a bracket that is none is refused") {
   CHECK_THROWS_AS(threshold_search({.lower = 0}), parameter_error);
   CHECK_THROWS_AS(threshold_search({.lower = 2, .upper = 1}), parameter_error);

@@ -15,6 +15,11 @@ namespace lbm {
 /// How forces enter: a calibration holds for one scheme.
 enum class forcing_kind : std::uint8_t { velocity_shift, guo };
 
+/// The kind of a forcing scheme.
+template <class Forcing>
+inline constexpr forcing_kind kind_of_forcing =
+    Forcing::carries_source ? forcing_kind::guo : forcing_kind::velocity_shift;
+
 /// Contact angles [degrees] of which a row tells the wettability.
 inline constexpr std::array<double, 9> calibrated_angles{0, 10, 20, 30, 40, 50, 60, 70, 80};
 
