@@ -29,7 +29,7 @@ struct lattice_choice {
 /// Why scales are refused.
 enum class scale_status : unsigned char {
   ok,
-  invalid_input,         ///< refused: a number that is not above 0, or NaN
+  invalid_input,         ///< refused: a number that is not above 0, or NaN, of the mixture's too
   nearly_inviscid,       ///< refused: τ below 0.51, where nothing damps
   over_relaxed,          ///< refused: τ above 2, where walls move with the viscosity
   unresolved_interface,  ///< refused: the radius is less than the interface is wide
@@ -46,7 +46,7 @@ enum class scale_status : unsigned char {
 [[nodiscard]] constexpr const char* describe(scale_status s) noexcept {
   switch (s) {
     case scale_status::ok: return "ok";
-    case scale_status::invalid_input: return "a length, fluid property or velocity outside the domain";
+    case scale_status::invalid_input: return "a length, velocity or property of fluids or mixture outside the domain";
     case scale_status::nearly_inviscid: return "tau is below 0.51: nothing damps";
     case scale_status::over_relaxed: return "tau is above 2: walls move with the viscosity";
     case scale_status::unresolved_interface: return "the smallest radius is less than the interface is wide";
@@ -91,23 +91,26 @@ struct lattice_scales {
   const double rho = fluids.density;
   const double dx = choice.node;
   const double smallest = choice.smallest_radius;
-  if (!positive(sigma) || !positive(mu) || !positive(rho) || !positive(dx) || !positive(smallest) ||
-      !positive(m.flat_tension) || !(fluids.contact_angle >= 0 && fluids.contact_angle <= pi<double>) ||
+  if (!positive(sigma) || !positive(mu) || !positive(rho) || !positive(dx) || !positive(smallest) || !positive(m.tau) ||
+      !positive(m.attraction) || !positive(m.main) || !positive(m.dissolved) || !positive(m.factor) ||
+      !positive(m.width) || !positive(m.flat_tension) || !positive(m.bubble_tension) ||
+      !std::isfinite(m.density_exponent) || !std::isfinite(m.curvature) || !(m.spurious >= 0) ||
+      !(fluids.contact_angle >= 0 && fluids.contact_angle <= pi<double>) ||
       !(choice.velocity >= 0 && std::isfinite(choice.velocity))) {
     return refused(scale_status::invalid_input);
   }
-  if (m.tau < 0.51) {
+  if (!(m.tau >= 0.51)) {
     return refused(scale_status::nearly_inviscid);
   }
-  if (m.tau > 2) {
+  if (!(m.tau <= 2)) {
     return refused(scale_status::over_relaxed);
   }
   const double nodes = smallest / dx;
-  if (nodes < m.width / 2) {
-    return refused(scale_status::unresolved_interface);
-  }
-  if (fluids.contact_angle == 0 && nodes < 2) {
+  if (fluids.contact_angle == 0 && !(nodes >= 2)) {
     return refused(scale_status::unresolved_film);
+  }
+  if (!(nodes >= m.width)) {
+    return refused(scale_status::unresolved_interface);
   }
   const double lattice_sigma = surface_tension(m, m.main);
   const double capillary = 2 * lattice_sigma / nodes;
