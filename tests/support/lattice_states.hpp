@@ -50,19 +50,19 @@ inline lattice_box box_of(const place& size, face_kind kind = face_kind::periodi
   return {size, {kind, kind, kind}, {kind, kind, kind}};
 }
 
-/// Blobs of the components and a stir, seen through a map of places.
-template <class Simulation, class Map>
-void stir(Simulation& s, Map map, double sign_x = 1) {
+inline constexpr auto as_it_is = [](const auto& p) { return p; };
+
+/// Blobs of the components and a stir, seen through a map of places and one of velocities.
+template <class Simulation, class Map, class Turn = decltype(as_it_is)>
+void stir(Simulation& s, Map map, Turn turn = as_it_is) {
   s.initialise([&](const place& p, auto& rho, auto& u) {
     const place q = map(p);
     for (std::size_t c = 0; c < rho.size(); ++c) {
       rho[c] = 0.2 + 0.7 * noise(q, 1 + static_cast<std::uint32_t>(c));
     }
-    u = {sign_x * (0.02 * noise(q, 11) - 0.01), 0.02 * noise(q, 12) - 0.01, 0.02 * noise(q, 13) - 0.01};
+    u = turn(std::array{0.02 * noise(q, 11) - 0.01, 0.02 * noise(q, 12) - 0.01, 0.02 * noise(q, 13) - 0.01});
   });
 }
-
-inline constexpr auto as_it_is = [](const place& p) { return p; };
 
 /// A box with a solid ball that shows the components different densities.
 inline site_map<d3q19> with_ball(const place& size) {

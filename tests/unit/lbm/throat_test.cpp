@@ -52,9 +52,53 @@ TEST_CASE("a throat with two equal grains is halved, whichever they are, and oth
     CHECK(2 * static_cast<double>(fluid_nodes(half)) == doctest::Approx(nodes).epsilon(0.05));
   }
   CHECK_FALSE(throat_on_lattice(between(1, 0.9, 0.8, 0.1), mirrors, r).halved());
-  CHECK_FALSE(throat_on_lattice(between(1, 1, 1, 0), {prism_side::mirror, prism_side::wetting, prism_side::mirror}, r)
-                  .box()
-                  .high[0] == face_kind::periodic);
+}
+
+TEST_CASE("what stands behind a side decides its face, its nodes, and which mirror halves the throat") {
+  constexpr prism_side mirror = prism_side::mirror;
+  constexpr prism_side wetting = prism_side::wetting;
+  throat_resolution r = resolution();
+  r.halved = true;
+  const auto beyond = [](const throat_on_lattice& t, site_kind kind, std::uint8_t tag) {
+    std::size_t count = 0;
+    const int z = t.box().size[2] - 2;  // above the grains: what is no fluid lies beyond a side
+    for (int x = 0; x < t.box().size[0]; ++x) {
+      for (int y = 0; y < t.box().size[1]; ++y) {
+        const site s = t.at(x, y, z);
+        count += s.kind == kind && s.tag == tag ? 1U : 0U;
+      }
+    }
+    return count;
+  };
+  // the one wetting side is cut in its middle and lies on a face, the other two stay one another's image
+  const throat_on_lattice one(between(1, 1, 1, 0), {mirror, wetting, mirror}, r);
+  CHECK(one.halved());
+  CHECK(one.on_face(1));
+  CHECK(one.box().low[1] == face_kind::wall);
+  CHECK(one.box().high[0] == face_kind::mirror);
+  CHECK(beyond(one, site_kind::image, 0) > 0);
+  CHECK(beyond(one, site_kind::solid, liquid_wall) == 0);
+  // the one mirror so
+  const throat_on_lattice two(between(1, 1, 1, 0), {wetting, wetting, mirror}, r);
+  CHECK(two.halved());
+  CHECK(two.on_face(2));
+  CHECK(two.box().low[1] == face_kind::mirror);
+  CHECK(two.box().high[0] == face_kind::mirror);
+  CHECK(beyond(two, site_kind::image, 0) == 0);
+  CHECK(beyond(two, site_kind::solid, liquid_wall) > 0);
+  // two equal grains: one wetting side leaves them each other's image if it is that between them, else not
+  int halves = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    std::array<prism_side, 3> sides{};
+    sides[k] = wetting;
+    const throat_on_lattice t(between(1, 1, 0.7, 0.2), sides, r);
+    halves += t.halved() ? 1 : 0;
+    CHECK(t.halved() == (t.grain((k + 1) % 3).radius == t.grain(k).radius));
+    CHECK(t.box().high[0] == (t.halved() ? face_kind::mirror : face_kind::wall));
+    CHECK((t.box().low[1] == face_kind::wall) == t.on_face(k));
+    CHECK((beyond(t, site_kind::solid, liquid_wall) > 0) == !t.on_face(k));
+  }
+  CHECK(halves == 1);
 }
 
 TEST_CASE("a plug keeps the upper reservoir from the grains, with mirrors beside it") {
