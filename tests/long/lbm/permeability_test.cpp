@@ -2,7 +2,8 @@
 //
 // Campaign of the lattice's permeability: simple cubic spheres and a random packing of 64 equal spheres on finer and
 // finer lattices, extrapolated to the limit (docs/campaigns/lattice_permeability_<name>.json). A packing that has its
-// file is not run again; each lattice that is done is kept beside it.
+// file is not run again, its numbers are checked again; each lattice that is done is kept beside it.
+#include "support/campaign.hpp"
 #include "support/shared_data.hpp"
 #include "tetrapore/lbm/permeability.hpp"
 
@@ -66,18 +67,26 @@ fitted fit(const std::vector<measured>& all, double order) {
 /// \param within  of the reference, relative, that the limit has to be
 void campaign(const std::string& name, const periodic_spheres& spheres,
               const std::vector<std::pair<int, double>>& lattices, double order, double reference, double within) {
-  const std::filesystem::path folder = TETRAPORE_CAMPAIGN_DIR;
-  std::filesystem::create_directories(folder);
-  const auto path = folder / ("lattice_permeability_" + name + ".json");
-  const auto kept = folder / ("lattice_permeability_" + name + ".progress");
-  if (std::filesystem::exists(path)) {
-    MESSAGE("there already: " << path.filename().string());
-    return;
-  }
+  const auto path = campaigns::file_of("lattice_permeability_" + name);
+  const auto kept = path.parent_path() / ("lattice_permeability_" + name + ".progress");
+  const bool finished = std::filesystem::exists(path);
   std::vector<measured> done;
-  std::ifstream before(kept);
-  for (measured m{}; before >> m.nodes >> m.offset >> m.permeability;) {
-    done.push_back(m);
+  if (finished) {
+    std::ifstream file(path);
+    for (std::string line; std::getline(file, line);) {
+      if (const auto of = campaigns::numbers_of(line); of.numbers.size() == 4) {
+        done.push_back({static_cast<int>(of.numbers[0]), of.numbers[1], of.numbers[2]});
+      }
+    }
+    REQUIRE(done.size() == lattices.size());
+    for (std::size_t k = 0; k < done.size(); ++k) {
+      CHECK(std::pair(done[k].nodes, done[k].offset) == lattices[k]);
+    }
+  } else {
+    std::ifstream before(kept);
+    for (measured m{}; before >> m.nodes >> m.offset >> m.permeability;) {
+      done.push_back(m);
+    }
   }
   for (std::size_t k = done.size(); k < lattices.size(); ++k) {
     const auto [nodes, offset] = lattices[k];
@@ -94,6 +103,9 @@ void campaign(const std::string& name, const periodic_spheres& spheres,
   const fitted f = fit(done, order);
   CHECK(std::abs(f.limit / reference - 1) < within);
   CHECK(f.error < within * reference);  // or the agreement would be luck
+  if (finished) {
+    return;
+  }
   std::ostringstream rows;
   for (const measured& m : done) {
     rows << (rows.str().empty() ? "" : ",") << "\n    [" << m.nodes << ", " << m.offset << ", " << m.permeability

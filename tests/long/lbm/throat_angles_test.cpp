@@ -2,16 +2,14 @@
 //
 // Campaign: entry pressures above contact angle 0 against Surface Evolver, on what their correction was calibrated on
 // and on the rest (docs/campaigns/throat_angles.json).
+#include "support/campaign.hpp"
 #include "support/lattice_throats.hpp"
 
 #include <doctest/doctest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <string>
+#include <cstddef>
+#include <iterator>
 #include <vector>
 
 using namespace lattice_throats;
@@ -30,17 +28,9 @@ constexpr spheres throats[] = {{40, 0, 9.42, true},     {40, 0.4, 2.766, true}, 
                                {20, 0.2, 5.563, false}, {20, 0.4, 3.2335, false}, {60, 0, 7.28, false},
                                {60, 0.05, 6.14, false}, {60, 0.2, 3.478, false}};
 
-std::string number(double x) {
-  if (!std::isfinite(x)) {
-    return "null";
-  }
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", x);
-  return text;
-}
+constexpr double width = 0.025;
 
-std::string row_of(const spheres& t, double inscribed) {
-  constexpr double width = 0.025;
+campaigns::row row_of(const spheres& t, double inscribed) {
   entry_set_up s = equal_spheres(t.gap, inscribed);
   s.contact_angle = t.degrees * pi<double> / 180;
   s.patience = 5000;
@@ -49,42 +39,46 @@ std::string row_of(const spheres& t, double inscribed) {
   threshold_search search(e.bracket(1, width));
   run(e, search);
   const entry_result r = e.result(search);
-  CHECK((r.end == search_end::converged) == std::isfinite(r.value));
-  if (r.end == search_end::converged) {
-    CHECK(std::abs(r.value / t.curvature - 1) <= r.discretisation + width / 2);
-  }
-  return "{\"degrees\": " + number(t.degrees) + ", \"gap\": " + number(t.gap) +
-         ", \"inscribed\": " + number(inscribed) + ", \"calibrating\": " + (t.calibrating ? "true" : "false") +
-         ", \"end\": \"" + describe(r.end) + "\", \"last_hold\": \"" + describe(r.last) +
-         "\", \"lower\": " + number(r.lower / t.curvature) + ", \"upper\": " + number(r.upper / t.curvature) +
-         ", \"value\": " + number(r.value / t.curvature) + ", \"discretisation\": " + number(r.discretisation) +
-         ", \"updates\": " + std::to_string(r.updates) + "}";
+  campaigns::row row;
+  row.put("degrees", t.degrees).put("gap", t.gap).put("inscribed", inscribed).put("calibrating", t.calibrating);
+  row.put("end", describe(r.end)).put("last_hold", describe(r.last));
+  row.put("lower", r.lower / t.curvature).put("upper", r.upper / t.curvature).put("value", r.value / t.curvature);
+  return row.put("discretisation", r.discretisation).put("updates", r.updates);
 }
 
 }  // namespace
 
 TEST_CASE("entry pressures above contact angle 0 are within their error of Surface Evolver") {
-  const std::filesystem::path folder = TETRAPORE_CAMPAIGN_DIR;
-  std::filesystem::create_directories(folder);
-  const auto path = folder / "throat_angles.json";
-  if (std::filesystem::exists(path)) {
-    MESSAGE("there already: " << path.filename().string());
-    return;
-  }
-  std::vector<std::string> rows;
-  for (const double inscribed : {2.0, 3.0, 4.0, 5.0, 6.0}) {
-    for (const spheres& t : throats) {
-      rows.push_back(row_of(t, inscribed));
+  constexpr double inscribed[] = {2, 3, 4, 5, 6};
+  campaigns::row head;
+  head.put("unit", "the curvature of Surface Evolver");
+  const auto rows = campaigns::rows_of("throat_angles", head, [&] {
+    std::vector<campaigns::row> measured;
+    for (const double nodes : inscribed) {
+      for (const spheres& t : throats) {
+        measured.push_back(row_of(t, nodes));
+      }
+    }
+    return measured;
+  });
+  REQUIRE(rows.size() == std::size(inscribed) * std::size(throats));
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const campaigns::row& r = rows[k];
+    const spheres& t = throats[k % std::size(throats)];
+    CAPTURE(r.line());
+    CHECK(r.number("degrees") == t.degrees);
+    CHECK(r.number("gap") == t.gap);
+    CHECK(r.number("inscribed") == inscribed[k / std::size(throats)]);
+    const double value = r.number("value");
+    const bool converged = r.word("end") == describe(search_end::converged);
+    CHECK(converged == std::isfinite(value));
+    CHECK((converged || t.degrees == 60));  // there menisci creep, and a search may end undecided
+    if (converged) {
+      CHECK(std::abs(value - 1) <= r.number("discretisation") + width / 2);
+      CHECK(r.number("lower") < r.number("upper"));
+    }
+    if (t.degrees == 40 && t.gap == 0.2 && r.number("inscribed") >= 3) {
+      CHECK(std::abs(value - 1) < 0.06);
     }
   }
-  const auto part = path.string() + ".part";
-  std::ofstream out(part);
-  out << "{\n  \"command\": \"tests/run.sh --long long_lbm\",\n  \"unit\": \"the curvature of Surface Evolver\",\n"
-      << "  \"rows\": [\n";
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    out << "    " << rows[k] << (k + 1 < rows.size() ? ",\n" : "\n");
-  }
-  out << "  ]\n}\n";
-  out.close();
-  std::filesystem::rename(part, path);
 }
