@@ -3,6 +3,7 @@
 
 #include "tetrapore/lbm/rest.hpp"
 
+#include <algorithm>
 #include <vector>
 
 /// \file
@@ -72,7 +73,8 @@ template <class Model>
 ///
 /// A step moves momentum in two ways, with populations between nodes and with the force along bonds. Both are counted,
 /// plane by plane, so that at rest the normal stress is one number along the row and σ is that of the lattice, no
-/// integral of a continuous profile.
+/// integral of a continuous profile. Where the main density is not within `tolerance` after being laid eight times the
+/// end is `missed`.
 /// \par Units     lattice units
 /// \par Domain    mixtures of two components that part; collisions with one relaxation time for momentum
 /// \par Accuracy  the normal stress is constant to 2e-8 of itself; σ agrees with bubbles in the limit of large R
@@ -111,6 +113,9 @@ template <class Model = mixture<d2q9, bgk>>
   flat_interface f;
   double start = o.main;
   double factor = weak_force_factor(model);
+  double slope = 1;  // of the main density found, by the one laid, with one c for what is dissolved
+  double last_start = 0;
+  double last_main = 0;
   for (int turn = 0; turn < 8; ++turn) {
     const auto dissolved = dissolved_density({o.attraction, factor, 0, start});
     if (!dissolved.ok()) {
@@ -132,11 +137,17 @@ template <class Model = mixture<d2q9, bgk>>
     f.main = gas[0];
     f.dissolved = gas[1];
     f.factor = std::log(gas[0] / gas[1]) / (o.attraction * (gas[0] - gas[1]));
-    if (std::abs(f.main - o.main) < o.tolerance) {
+    f.rest.end = std::abs(f.main - o.main) < o.tolerance ? hold_end::stable : hold_end::missed;
+    if (f.rest.end == hold_end::stable) {
       break;
     }
-    factor = f.factor;
-    start += o.main - f.main;
+    if (turn > 1) {
+      slope = std::clamp((f.main - last_main) / (start - last_start), 0.2, 5.0);
+    }
+    last_start = start;
+    last_main = f.main;
+    factor = turn == 0 ? f.factor : factor;
+    start += (o.main - f.main) / slope;
   }
 
   f.pressure = model.pressure({f.main, f.dissolved});

@@ -67,7 +67,8 @@ template <class Simulation>
 ///
 /// σ follows the densities (about as the 2.5th power of the main one at G = 1.8), and Laplace's pressure moves them, so
 /// σ(R) depends on whose density is kept. With the mean of both main densities kept, and the radius that treats the
-/// components alike, σ hardly depends on R.
+/// components alike, σ hardly depends on R. Where the main density is not within `tolerance` after being laid eight
+/// times the end is `missed`.
 /// \par Units     lattice units
 /// \par Domain    a radius of 4 nodes or more, a box of 4 nodes more than it
 /// \tparam T      float or double
@@ -127,7 +128,11 @@ template <class Model = mixture<d3q19, bgk>, std::floating_point T = float>
            : o.where == main_of::outside ? b.outside[1]
                                          : (b.inside[0] + b.outside[1]) / 2;
   };
-  for (int turn = 0; turn < 4; ++turn) {
+  double more = 0;   // main density laid beyond that of the first turn
+  double slope = 1;  // of the main density found, by it, with the same dissolved densities
+  double last_more = 0;
+  double last_miss = 0;
+  for (int turn = 0; turn < 8; ++turn) {
     lay_interface(s, start, [&](const std::array<int, 3>& p) {
       return o.radius - std::hypot(p[0] + 0.5, p[1] + 0.5, axes == 3 ? p[2] + 0.5 : 0);
     });
@@ -137,9 +142,19 @@ template <class Model = mixture<d3q19, bgk>, std::floating_point T = float>
     if (r.end != hold_end::stable || std::abs(miss) < o.tolerance) {
       break;
     }
-    start = {{start.gas[0] + miss, b.inside[1]}, {b.outside[0], start.liquid[1] + miss}};
+    b.rest.end = hold_end::missed;
+    if (turn == 0) {
+      start = {{start.gas[0], b.inside[1]}, {b.outside[0], start.liquid[1]}};
+    } else if (turn > 1) {
+      slope = std::clamp((last_miss - miss) / (more - last_more), 0.2, 5.0);
+    }
+    last_more = more;
+    last_miss = miss;
+    more += miss / slope;
+    start.gas[0] += more - last_more;
+    start.liquid[1] += more - last_more;
   }
-  if (b.rest.end != hold_end::stable) {
+  if (b.rest.end != hold_end::stable && b.rest.end != hold_end::missed) {
     return b;
   }
   std::vector<double> profile;
