@@ -80,7 +80,7 @@ struct arc {
 /// What the arc has at the plate is the angle seen from afar; next to the wall the interface bends within some 3 nodes.
 /// The plane at which the angle holds lies inside the gap by `axis_wall_shift`. A wall shows densities of its own, so
 /// its angle follows the main density (cos θ by half of a change of it): fluids are laid again until that is the one
-/// asked for, to 0.3 %.
+/// asked for, to 0.3 %; where it is not after six times the end is `missed`.
 /// \par Units  lattice units
 /// \tparam Model  a mixture on a lattice of two dimensions: of D3Q19 it is what its planes show
 template <class Model = mixture<d2q9, bgk>, std::floating_point T = float>
@@ -137,7 +137,10 @@ template <class Model = mixture<d2q9, bgk>, std::floating_point T = float>
   const int axis = height - 1;
   const auto at = [&](int x) { return s.densities_at(static_cast<std::size_t>(s.sites().node_at(x, axis, 0))); };
   c.more = o.more;
-  for (int turn = 0; turn < 4; ++turn) {
+  double slope = 1;  // of the main density found, by the one laid
+  double last_more = 0;
+  double last_miss = 0;
+  for (int turn = 0; turn < 6; ++turn) {
     reservoir_pair laid = start.value;
     laid.gas[0] += c.more;
     laid.liquid[1] += c.more;
@@ -152,10 +155,14 @@ template <class Model = mixture<d2q9, bgk>, std::floating_point T = float>
       return c;
     }
     const double miss = o.main - (at(1)[0] + at(length - 2)[1]) / 2;
-    if (std::abs(miss) < 0.003 * o.main) {
+    c.rest.end = std::abs(miss) < 0.003 * o.main ? hold_end::stable : hold_end::missed;
+    if (c.rest.end == hold_end::stable) {
       break;
     }
-    c.more += miss;
+    slope = turn > 0 ? std::clamp((last_miss - miss) / (c.more - last_more), 0.5, 4.0) : slope;
+    last_more = c.more;
+    last_miss = miss;
+    c.more += miss / slope;
   }
   const detail::arc whole = fit(o.skipped);
   const auto angle_of = [&](double curvature_found) {

@@ -39,7 +39,8 @@ struct drop_result {
   rest_report rest;
 };
 
-/// Lets a drop come to rest and fits a sphere to the areas of its sections.
+/// Lets a drop come to rest and fits a sphere to the areas of its sections. Its mean main density is that of the
+/// mixture to 0.3 %, or the end is `missed`.
 /// \par Units   lattice units
 /// \par Domain  0 < θ < 180°; a drop of skipped + 5 rows or more
 /// \tparam T  float or double
@@ -130,7 +131,8 @@ template <std::floating_point T = float, class Model = mixture<d3q19, bgk>, stor
       return d;
     }
     const double miss = o.mixture.main - d.main;
-    if (std::abs(miss) < 0.003 * o.mixture.main) {
+    d.rest.end = std::abs(miss) < 0.003 * o.mixture.main ? hold_end::stable : hold_end::missed;
+    if (d.rest.end == hold_end::stable) {
       break;
     }
     laid.gas[0] += miss;

@@ -52,7 +52,8 @@ struct pendular_result {
 /// middle to the meniscus by some 0.1 σ/R, at any resolution. So the suction is taken beside the meniscus. The force
 /// is the momentum that passes the plane between the grains, by populations and by bonds: no integral of an
 /// interface. The law is asked for the force at the suction that the fluids show; σ is that of their densities.
-/// \par Domain  a bridge that the law knows; a volume for which its neck and its contact line are resolved
+/// \par Domain  a bridge that the law knows; a volume for which its neck and its contact line are resolved. One that
+///              rests beside the suction or the density asked for ends as `missed`; all values are those it has there
 template <class Forcing = velocity_shift, std::floating_point T = float>
 [[nodiscard]] pendular_result pendular_bridge(const pendular_set_up& o) {
   using fluids = mixture<d3q19, bgk, Forcing>;
@@ -157,6 +158,7 @@ template <class Forcing = velocity_shift, std::floating_point T = float>
   // walls repel both components and films hold some of one: what is laid is shifted until the bulk has the densities
   // of the calibration and the suction is that asked for
   reservoir_pair laid = rho.value;
+  bool met = false;
   double volume = start.value.volume;
   for (int turn = 0; turn < 8; ++turn) {
     const auto shape = law.bridge(pair, given_volume<double>{volume});
@@ -182,8 +184,9 @@ template <class Forcing = velocity_shift, std::floating_point T = float>
     b.rest = {r.change, b.rest.steps + r.steps, b.rest.updates + r.updates, r.end};
     const double miss = o.mixture.main - mean_main;
     const bool near = std::abs(b.suction - o.suction) < o.near && std::abs(miss) < 0.005 * o.mixture.main;
+    met = near && !first;
     const auto found = law.bridge(pair, given_suction<double>{b.suction});
-    if (r.end != hold_end::stable || (near && !first) || !found.ok()) {
+    if (r.end != hold_end::stable || met || !found.ok()) {
       break;
     }
     laid.gas[0] += miss;
@@ -193,6 +196,7 @@ template <class Forcing = velocity_shift, std::floating_point T = float>
   if (b.rest.end != hold_end::stable) {
     return b;
   }
+  b.rest.end = met ? hold_end::stable : hold_end::missed;
   const auto gas = s.densities_at(corner);
   const auto liquid = s.densities_at(middle);
   for (std::size_t n = 0; n < map.size(); ++n) {
