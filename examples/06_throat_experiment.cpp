@@ -41,7 +41,7 @@ void print(const Experiment& e, const lbm::threshold_search& search, std::uint64
   key("best2d_ratio_msp", e.plane().best / unit);
   std::printf("bracket=%.6g..%.6g\n", result.lower / unit, result.upper / unit);
   key("measured_lower", found.measured_lower / e.lattice_pressure(unit));
-  key("entry_pressure_lattice", search.value());
+  key("entry_pressure_lattice", found.end == lbm::search_end::converged ? search.value() : tp::quiet_nan<double>);
   key("surface_tension_lattice", e.set_up().pair.surface_tension);
   key("inscribed_nodes", e.inscribed());
   key("retraction_nodes", e.retraction());

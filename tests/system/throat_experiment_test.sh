@@ -54,6 +54,11 @@ title="a finished state answers at once"
 "$binary" $coarse --out out >stdout 2>stderr || fail "$title: exit code $?"
 [ "$(value bracket) $(value steps)" = "$bracket $steps" ] || fail "$title: $(value bracket) after $(value steps) steps"
 
+title="a finished state with a narrower bracket goes on"
+"$binary" ${coarse/0.05/0.02} --out out >stdout 2>stderr || fail "$title: exit code $?"
+[ "$(value steps)" -gt "$steps" ] || fail "$title: no step was made"
+value bracket | awk -F'\\.\\.' '{ exit !($2 - $1 <= 0.0201 * ($1 + $2) / 2) }' || fail "$title: $(value bracket)"
+
 title="a killed run ends with the same bracket"
 rm -rf out
 "$binary" $coarse --out out >stdout 2>stderr &
