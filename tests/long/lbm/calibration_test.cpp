@@ -4,6 +4,7 @@
 // (docs/campaigns/lattice_calibration.json, lattice_menisci.json). A measurement that a progress file has is not made
 // again; the checks are those of the numbers that are kept.
 #include "support/campaign.hpp"
+#include "support/half_bubbles.hpp"
 #include "tetrapore/lbm/calibrate.hpp"
 #include "tetrapore/lbm/drop.hpp"
 #include "tetrapore/lbm/pendular_experiment.hpp"
@@ -170,6 +171,18 @@ TEST_CASE("bubbles and menisci at rest show the tensions and angles that are ask
       return std::vector<double>{r.tension, r.radius};
     });
     CHECK(std::abs(b.at(0) / 0.0875 - 1) < 1e-3);
+  }
+
+  // half a ball on an inclined mirror of images and on a face of the box: bounds are what is reached
+  for (const double nodes : {58.0, 61.3}) {
+    const auto b = book.row(name_of("half_ball", 1.8, nodes), [&] {
+      const auto exact = half_bubbles::on_mirror(false, true, nodes);
+      const auto images = half_bubbles::on_mirror(true, true, nodes);
+      return std::vector<double>{exact.tension, exact.way, images.tension, images.way};
+    });
+    CHECK(std::abs(b.at(1)) < 0.1);
+    CHECK(std::abs(b.at(2) / b.at(0) - 1) < 0.015);
+    CHECK(std::abs(b.at(3)) < 8);
   }
 
   // angles between plates at twice the gap of the calibration
