@@ -18,9 +18,9 @@ namespace lbm {
 /// \par Units     lattice units; `main` is the density of each component in its own phase
 /// \par Domain    models of two components that relax with one τ
 /// \par Accuracy  factor and tension of the flat interface: those of measure_flat_interface. A curved one has 1 % more
-///                tension at τ = 1 and 0.7, 5 to 7 % at τ = 1.5 (table of measured mixtures). w is (c − 1)/2: measured at
-///                τ = 1, elsewhere an assumption, so that a pair off τ = 1 is approximate: where w is wrong something
-///                flows through a meniscus at rest, and a hold that shows another p_c than was set says so.
+///                tension at τ = 1 and 0.7, 5 to 7 % at τ = 1.5 (table of measured mixtures). w is (c − 1)/2: measured
+///                at τ = 1, elsewhere an assumption, so that a pair off τ = 1 is approximate: where w is wrong
+///                something flows through a meniscus at rest, and a hold that shows another p_c than was set says so.
 ///                Entry pressures of such pairs have no stated discretisation
 /// \par Source    measure_flat_interface; its cost is about 0.2 s
 template <class Model>
