@@ -43,7 +43,7 @@ struct meniscus_sight {
   bool has_liquid;
 };
 
-/// The storage of a throat's fluids: moments where the collision at τ = 1 leaves nothing else, a third faster there.
+/// The storage of a throat's fluids: moments where the collision at τ = 1 leaves nothing else, 1.5 times as fast.
 template <class Model>
 inline constexpr storage leanest_storage = requires {
   requires Model::collision_type::equilibrium_at_one;
