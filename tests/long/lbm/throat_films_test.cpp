@@ -8,6 +8,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <string>
 #include <vector>
 
 using namespace lattice_throats;
@@ -108,7 +109,7 @@ TEST_CASE("entry pressures at contact angle 0 are within their error, and tend t
     if (t.inscribed.size() >= 3) {
       REQUIRE(raw.size() >= 3);
       const double limit = limit_of(inscribed, raw);
-      MESSAGE(t.name << ": " << limit << " in the limit of fine lattices");
+      MESSAGE(std::string(t.name) << ": " << limit << " in the limit of fine lattices");
       CHECK(std::abs(limit / t.truth - 1) < 0.05);
     }
   }
