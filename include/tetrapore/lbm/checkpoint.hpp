@@ -114,7 +114,7 @@ class checkpoint_reader {
       throw input_error(where_, "a checksum that does not match", "the bytes as they were saved");
     }
     if (head.parameters != parameters) {
-      throw input_error(where_, "the state of another experiment", "one of the same throat, lattice and fluids");
+      throw input_error(where_, "the state of another experiment", "one of the same geometry, lattice and fluids");
     }
     rest_ = bytes.subspan(sizeof head);
   }

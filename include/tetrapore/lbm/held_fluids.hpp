@@ -6,6 +6,7 @@
 #include "tetrapore/lbm/experiment.hpp"
 #include "tetrapore/lbm/moments.hpp"
 #include "tetrapore/lbm/simulation.hpp"
+#include "tetrapore/lbm/state_numbers.hpp"
 
 #include <algorithm>
 #include <array>
@@ -211,18 +212,14 @@ class held_fluids {
 
   /// The present state becomes the one that holds start from.
   void keep() {
-    kept_.resize(state_size());
-    std::size_t at = 0;
-    for_each_number([&](const T& f) { kept_[at++] = f; });
+    copy_state(sim_, kept_);
     kept_at_ = held_;
   }
   void back() {
     held_ = kept_at_;
-    if (held_ == none) {
-      return;
+    if (held_ != none) {
+      put_state(sim_, kept_);
     }
-    std::size_t at = 0;
-    for_each_number([&](T& f) { f = kept_[at++]; });
   }
 
   void save(checkpoint_writer& out) const {
@@ -243,7 +240,7 @@ class held_fluids {
     }
     double at = none;
     in.take(at);
-    std::vector<T> state(at == none ? 0 : state_size());
+    std::vector<T> state(at == none ? 0 : state_size(sim_));
     in.take(std::span<T>(state));
     in.finish();
     kept_ = std::move(state);
@@ -267,30 +264,6 @@ class held_fluids {
   }
   [[nodiscard]] static std::string kept_as(bool moments, std::size_t bytes) {
     return std::string(moments ? "moments" : "populations") + " in numbers of " + std::to_string(bytes) + " bytes";
-  }
-
-  /// Numbers that are kept of a node and component.
-  static constexpr std::size_t numbers = [] {
-    if constexpr (Storage == storage::moments) {
-      return simulation_type::moments;
-    } else {
-      return Model::directions;
-    }
-  }();
-  [[nodiscard]] std::size_t state_size() const noexcept { return Model::components * numbers * sim_.sites().size(); }
-  template <class Do>
-  void for_each_number(Do apply) {
-    for (std::size_t c = 0; c < Model::components; ++c) {
-      for (std::size_t k = 0; k < numbers; ++k) {
-        for (std::size_t n = 0; n < sim_.sites().size(); ++n) {
-          if constexpr (Storage == storage::moments) {
-            apply(sim_.moment(c, n, k));
-          } else {
-            apply(sim_.population(c, n, k));
-          }
-        }
-      }
-    }
   }
 
   coexistence pair_;

@@ -105,6 +105,18 @@ template <class Forcing = velocity_shift, std::floating_point T = float>
     throw parameter_error("bridge", "a gap of " + short_number(2 * half_gap) + " nodes", "one with a node in it");
   }
   const auto middle = static_cast<std::size_t>(map.node_at(inner, inner, 0));
+  struct plane_node {
+    std::size_t node;
+    double across;  // from the axis
+  };
+  std::vector<plane_node> plane;  // between the grains
+  for (int x = 0; x < side; ++x) {
+    for (int y = 0; y < side; ++y) {
+      if (const auto n = map.node_at(x, y, 0); n >= 0) {
+        plane.push_back({static_cast<std::size_t>(n), std::hypot(x + 0.5, y + 0.5)});
+      }
+    }
+  }
   double mean_main = o.mixture.main;
   const auto look = [&]() -> double {
     const auto gas = s.densities_at(corner);
@@ -115,44 +127,40 @@ template <class Forcing = velocity_shift, std::floating_point T = float>
     if (!(gas[0] > gas[1]) || !(liquid[1] > liquid[0])) {
       return 0;
     }
+    double disc = 0;
+    for (const auto& at : plane) {
+      const auto here = s.densities_at(at.node);
+      disc += (gas[0] - gas[1] - here[0] + here[1]) / (gas[0] - gas[1] - liquid[0] + liquid[1]);
+    }
+    b.neck = std::sqrt(4 * disc / pi<double>) / o.radius;
+    const double clear = std::max(b.neck * o.radius - 2 * o.mixture.width, 1.0);
     const double outside = model.pressure(gas);
     double pull = 0;
-    double disc = 0;
     double beside = 0;  // pressure of the liquid next to the meniscus, clear of it by two widths
     int nodes = 0;
-    for (int x = 0; x < side; ++x) {
-      for (int y = 0; y < side; ++y) {
-        if (map.node_at(x, y, 0) < 0) {
+    for (const auto& at : plane) {
+      const auto here = s.densities_at(at.node);
+      if (at.across <= clear && at.across > clear - o.mixture.width) {
+        beside += model.pressure(here);
+        ++nodes;
+      }
+      double stress = 0;
+      for (std::size_t i = 0; i < fluids::directions; ++i) {
+        if (stencil::velocity[i][2] != 1) {
           continue;
         }
-        const auto n = static_cast<std::size_t>(map.node_at(x, y, 0));
-        const auto here = s.densities_at(n);
-        const double across = std::hypot(x + 0.5, y + 0.5);
-        const double clear = std::max(b.neck > 0 ? b.neck * o.radius - 2 * o.mixture.width : neck / 2, 1.0);
-        if (across <= clear && across > clear - o.mixture.width) {
-          beside += model.pressure(here);
-          ++nodes;
+        for (std::size_t c = 0; c < 2; ++c) {  // what comes from the image, and as much goes there
+          stress += 2 * (static_cast<double>(s.population(c, at.node, i)) + stencil::weight[i] * model.reference[c]);
         }
-        disc += (gas[0] - gas[1] - here[0] + here[1]) / (gas[0] - gas[1] - liquid[0] + liquid[1]);
-        double stress = 0;
-        for (std::size_t i = 0; i < fluids::directions; ++i) {
-          if (stencil::velocity[i][2] != 1) {
-            continue;
-          }
-          for (std::size_t c = 0; c < 2; ++c) {  // what comes from the image, and as much goes there
-            stress += 2 * (static_cast<double>(s.population(c, n, i)) + stencil::weight[i] * model.reference[c]);
-          }
-          const auto beyond = map.seen(n, opposite(static_cast<int>(i))).node;
-          stress += detail::bond(model, i, here, s.densities_at(static_cast<std::size_t>(beyond)));
-        }
-        pull += outside - stress;
+        const auto beyond = map.seen(at.node, opposite(static_cast<int>(i))).node;
+        stress += detail::bond(model, i, here, s.densities_at(static_cast<std::size_t>(beyond)));
       }
+      pull += outside - stress;
     }
     mean_main = (gas[0] + liquid[1]) / 2;
     b.tension = surface_tension(o.mixture, mean_main);
     b.suction = (outside - beside / nodes) * o.radius / b.tension;
     b.force = 4 * pull / (b.tension * o.radius);
-    b.neck = std::sqrt(4 * disc / pi<double>) / o.radius;
     return b.force * b.neck;  // near its largest the force hardly moves with the bridge
   };
   // walls repel both components and films hold some of one: what is laid is shifted until the bulk has the densities

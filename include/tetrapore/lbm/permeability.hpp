@@ -5,6 +5,7 @@
 #include "tetrapore/core/outcome.hpp"
 #include "tetrapore/geometry/primitives.hpp"
 #include "tetrapore/lbm/curved_walls.hpp"
+#include "tetrapore/lbm/kept_waits.hpp"
 #include "tetrapore/lbm/simulation.hpp"
 
 #include <algorithm>
@@ -53,7 +54,8 @@ struct periodic_spheres {
 struct permeability_options {
   double tau = 1;        ///< of the shear; the flux does not depend on it
   double steady = 1e-7;  ///< relative change of the flux in the time that momentum takes across a node's width × 100
-  std::size_t cap = 200000;  ///< steps
+  std::size_t cap = 200000;    ///< steps
+  kept_waits* kept = nullptr;  ///< where to go on from, and where states are saved
 };
 
 /// \par Units  permeability in the square of the unit of length
@@ -256,8 +258,15 @@ template <lattice L = d3q19, std::floating_point T = double>
   model.collisions[0].tau = how.tau;
   model.reference = {1};
   const double width = solid.box().size[0];
-  double gravity = 1e-4 * model.viscosity(0) / width;
-  model.gravity[axis] = gravity;
+  struct {
+    double gravity = 0;
+    double flux = 0;
+    std::size_t steps = 0;
+    bool paced = false;
+    bool steady = false;
+  } now;
+  now.gravity = 1e-4 * model.viscosity(0) / width;
+  model.gravity[axis] = now.gravity;
   simulation<model_type, T> s(model, {solid.box(), [&](int x, int y, int z) {
                                         return site{solid.solid(x, y, z) ? site_kind::solid : site_kind::fluid, 0};
                                       }});
@@ -284,32 +293,43 @@ template <lattice L = d3q19, std::floating_point T = double>
   const auto pace = static_cast<std::size_t>(100 / model.viscosity(0)) + 1;
   // as fast as inertia allows, so that rounding matters least: Re < 0.05 across the box, far below the speed of sound
   const double wanted = std::min(5e-4, 0.05 * model.viscosity(0) / width);
-  bool paced = false;
-  double before = 0;
-  while (s.steps() < how.cap) {
+  const auto pull = [&](double gravity) {
+    now.gravity = gravity;
+    model.gravity[axis] = gravity;
+    s.set_gravity(model.gravity);
+  };
+  kept_wait kept(how.kept, s, parameter_hash{}.add(how.steady).add(std::uint64_t{how.cap}), [&] { run(2); });
+  if (kept.take_up(now)) {
+    pull(now.gravity);
+  }
+  while (!now.steady && now.steps < how.cap) {
     run(pace);
     double flux = detail::flux_of(s, axis);
     run(1);
+    now.steps += pace + 1;
     flux = 0.5 * (flux + detail::flux_of(s, axis)) /
            volume;  // a staggered mode, which nothing damps, changes sign each step
-    r.steps = s.steps();
     if (!(std::abs(flux) < 0.1)) {
+      r.steps = now.steps;
       return {r, flow_status::unstable};
     }
-    if (!paced) {
-      gravity *= wanted / std::max(std::abs(flux), 1e-3 * wanted);
-      model.gravity[axis] = gravity;
-      s.set_gravity(model.gravity);
-      paced = true;
-      continue;
+    if (!now.paced) {
+      pull(now.gravity * (wanted / std::max(std::abs(flux), 1e-3 * wanted)));
+      now.paced = true;
+    } else {
+      now.steady = std::abs(flux - now.flux) < how.steady * std::abs(flux);
+      now.flux = flux;
     }
-    if (std::abs(flux - before) < how.steady * std::abs(flux)) {
-      r.permeability = flux * model.viscosity(0) / gravity * solid.step() * solid.step();
-      return {r, flow_status::steady};
+    if (now.steady || now.steps % 2 == 0) {
+      kept.save(now);
     }
-    before = flux;
   }
-  return {r, flow_status::still_changing};
+  r.steps = now.steps;
+  if (!now.steady) {
+    return {r, flow_status::still_changing};
+  }
+  r.permeability = now.flux * model.viscosity(0) / now.gravity * solid.step() * solid.step();
+  return {r, flow_status::steady};
 }
 
 }  // namespace lbm

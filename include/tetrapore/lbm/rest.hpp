@@ -3,6 +3,7 @@
 
 #include "tetrapore/lbm/coexistence.hpp"
 #include "tetrapore/lbm/experiment.hpp"
+#include "tetrapore/lbm/kept_waits.hpp"
 #include "tetrapore/lbm/simulation.hpp"
 
 #include <array>
@@ -26,6 +27,7 @@ struct rest_options {
   double still = 1e-4;         ///< change of the quantity from look to look, relative to it
   std::uint64_t looks = 2;     ///< in a row that see it still
   std::uint64_t most_steps = 60000;
+  kept_waits* kept = nullptr;  ///< where to go on from, and where states are saved
 };
 
 /// How the wait ended: `hold_end::stable`, or why not. Experiments that aim at a density or a suction and rest beside
@@ -38,35 +40,40 @@ struct rest_report {
 };
 
 /// Runs until `look()`, a number, is still. Where it is no finite number the wait ends as not_finite, where it is 0 as
-/// dissolved.
+/// dissolved. Waits that are kept end to the bit as they would have, where `look` is a function of the fluids alone.
+/// \throw input_error  a kept state that is damaged or of another wait
 template <class Simulation, class Look>
   requires std::convertible_to<std::invoke_result_t<Look&>, double>
 rest_report rest(Simulation& s, const rest_options& o, Look look) {
   if (o.window < 2 || o.window % 2 != 0 || !(o.still > 0)) {
     throw parameter_error("rest", "a window of " + std::to_string(o.window) + " steps", "an even number, still > 0");
   }
-  rest_report r;
-  double before = look();
-  for (std::uint64_t still = 0; r.steps < o.most_steps;) {
+  struct {
+    rest_report report{};
+    double before = 0;
+    std::uint64_t still = 0;
+  } now;
+  now.before = look();
+  kept_wait kept(o.kept, s, parameter_hash{}.add(o.window).add(o.still).add(o.looks).add(o.most_steps).add(now.before),
+                 [&] { s.run(2); });
+  if (kept.take_up(now)) {
+    look();  // what it shows besides
+  }
+  rest_report& r = now.report;
+  while (r.end == hold_end::step_limit && r.steps < o.most_steps) {
     s.run(o.window);
     r.steps += o.window;
     r.updates += o.window * s.sites().size();
-    const double now = look();
-    if (!std::isfinite(now)) {
-      r.end = hold_end::not_finite;
-      return r;
+    const double value = look();
+    if (!std::isfinite(value) || value == 0) {  // not saved: it comes again, with what the looks before it showed
+      r.end = std::isfinite(value) ? hold_end::dissolved : hold_end::not_finite;
+      break;
     }
-    if (now == 0) {
-      r.end = hold_end::dissolved;
-      return r;
-    }
-    r.change = std::abs(now - before) / std::abs(now);
-    before = now;
-    still = r.change < o.still ? still + 1 : 0;
-    if (still == o.looks) {
-      r.end = hold_end::stable;
-      return r;
-    }
+    r.change = std::abs(value - now.before) / std::abs(value);
+    now.before = value;
+    now.still = r.change < o.still ? now.still + 1 : 0;
+    r.end = now.still == o.looks ? hold_end::stable : hold_end::step_limit;
+    kept.save(now);
   }
   return r;
 }

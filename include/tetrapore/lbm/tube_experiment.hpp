@@ -30,7 +30,8 @@ struct tube_set_up {
   double contact_angle = 0;            ///< [rad]
   calibrated_mixture mixture{};
   std::size_t most_nodes = 1000000;
-  double patience = 6000;  ///< steps per node of the arcs' radius after which a tube that still moves is given up
+  double patience = 6000;      ///< steps per node of the arcs' radius after which a tube that still moves is given up
+  kept_waits* kept = nullptr;  ///< where to go on from, and where states are saved
 };
 
 /// What a tube shows. \par Units  1/length of the section but where said
@@ -132,8 +133,9 @@ template <std::floating_point T = float, class Model = mixture<d3q19, bgk>, stor
   reservoir_pair laid = rho.value;
   const auto window = 2 * static_cast<std::uint64_t>(50 * arc);
   const auto most = static_cast<std::uint64_t>(o.patience * arc);
-  for (const rest_options& wait : {rest_options{window, 0.02, 2, most}, rest_options{window, 1e-3, 2, most},
-                                   rest_options{window, 1e-4, 3, most}}) {
+  for (const rest_options& wait :
+       {rest_options{window, 0.02, 2, most, o.kept}, rest_options{window, 1e-3, 2, most, o.kept},
+        rest_options{window, 1e-4, 3, most, o.kept}}) {
     s.initialise([&](const std::array<int, 3>& p, auto& at, auto&) {
       const double rise = 1 - std::clamp(tube.to_walls(p[0], p[1]) / inscribed, 0.0, 1.0);
       const double gas = 0.5 * (1 + std::tanh((p[2] - level - arc * rise * rise) / 1.5));

@@ -60,8 +60,8 @@ TEST_CASE("a state with any byte changed, cut short, prolonged or of other param
   longer.push_back(std::byte{0});
   CHECK_THROWS_AS(checkpoint_reader(longer, 7, "state"), input_error);
   CHECK_THROWS_WITH_AS(checkpoint_reader(bytes, 8, "state"),
-                       "state: found the state of another experiment, expected one of the same throat, lattice and "
-                       "fluids",
+                       "state: found the state of another experiment, expected one of the same geometry, lattice "
+                       "and fluids",
                        input_error);
 }
 
