@@ -71,22 +71,21 @@ template <lattice L, class R>
 struct equilibrium {
   R excess;
   R rho;
-  R triple_rho[3];  ///< 3 ρ u
-  R velocity[3];
-  R flat;  ///< excess − 3/2 ρ u²
+  R triple_rho[3];   ///< 3 ρ u
+  R half_triple[3];  ///< 3/2 u
+  R flat;            ///< excess − 3/2 ρ u²
 
   [[gnu::always_inline]] explicit equilibrium(const relaxation_target<R>& t) noexcept : excess(t.excess), rho(t.rho) {
     repeat<L::dimensions>([&]<int A>(number<A>) TETRAPORE_INLINE {
-      velocity[A] = t.velocity[A];
+      half_triple[A] = constant<R>(1.5) * t.velocity[A];
       triple_rho[A] = constant<R>(3) * t.rho * t.velocity[A];
     });
-    flat = excess - constant<R>(1.5) * t.rho * product<L>(velocity, velocity);
+    flat = excess - t.rho * product<L>(half_triple, t.velocity);
   }
   template <int K>
   [[gnu::always_inline]] void of_pair(R& even, R& odd) const noexcept {
-    const R cu = along_pair<L, K>(velocity);
     odd = along_pair<L, K>(triple_rho);
-    even = flat + constant<R>(1.5) * cu * odd;
+    even = flat + along_pair<L, K>(half_triple) * odd;
   }
 };
 
@@ -120,19 +119,24 @@ template <lattice L, class R>
                                        });
 }
 
-/// All but the rest population of an equilibrium.
-template <lattice L, class R>
-[[gnu::always_inline]] inline void fill_pairs(const relaxation_target<R>& t, R (&f)[L::directions]) noexcept {
+/// `give(i, f)` gets the populations of an equilibrium, settled: each half of a pair is rounded, their sums and
+/// differences are exact.
+template <lattice L, class R, class Give>
+[[gnu::always_inline]] inline void give_settled(const relaxation_target<R>& t, const R& excess, Give give) noexcept {
   const equilibrium<L, R> eq(t);
-  repeat<pairs<L>>([&]<int K>(number<K>) TETRAPORE_INLINE {
-    constexpr int i = 2 * K + 1;
-    const R w = constant<R>(pair_weight<K, L>);
-    R even;
-    R odd;
-    eq.template of_pair<K>(even, odd);
-    f[i] = w * (even + odd);
-    f[i + 1] = w * (even - odd);
-  });
+  const R sum = sum_over_pairs<L, R>([]<int K>(number<K>) TETRAPORE_INLINE { return true; },
+                                     [&]<int K>(number<K>) TETRAPORE_INLINE {
+                                       const R w = constant<R>(pair_weight<K, L>);
+                                       R even;
+                                       R odd;
+                                       eq.template of_pair<K>(even, odd);
+                                       even = on_grid(w * even);
+                                       odd = on_grid(w * odd);
+                                       give(number<2 * K + 1>{}, even + odd);
+                                       give(number<2 * K + 2>{}, even - odd);
+                                       return even;
+                                     });
+  give(number<0>{}, excess - (sum + sum));
 }
 
 /// Both halves of each pair by a rate of their own.

@@ -208,10 +208,10 @@ template <lattice L>
   return first;
 }
 
-/// The sum of `of(k)` over the pairs of a lattice for which `counts(k)`, in the order that mirrors leave alone. Without
-/// a single one: 0.
-template <lattice L, class R, class Counts, class Of>
-[[nodiscard, gnu::always_inline]] inline R sum_over_pairs(Counts counts, Of of) noexcept {
+/// The sum of `of(k)` over the pairs of a lattice for which `counts(k)`, in the order that mirrors leave alone; the part
+/// of pairs k, k + 1, … of one length goes through `weigh(k, part)`. Without a single pair: 0.
+template <lattice L, class R, class Counts, class Of, class Weigh>
+[[nodiscard, gnu::always_inline]] inline R sum_over_pairs(Counts counts, Of of, Weigh weigh) noexcept {
   R total(0);
   bool begun = false;
   const auto add = [&](const R& x) TETRAPORE_INLINE {
@@ -224,15 +224,20 @@ template <lattice L, class R, class Counts, class Of>
     static_assert(size == 1 || size == 2 || size == 4, "a group has 1, 2 or 4 pairs");
     if constexpr (counts(number<first>{})) {
       if constexpr (size == 1) {
-        add(of(number<first>{}));
+        add(weigh(number<first>{}, of(number<first>{})));
       } else if constexpr (size == 2) {
-        add(of(number<first>{}) + of(number<first + 1>{}));
+        add(weigh(number<first>{}, of(number<first>{}) + of(number<first + 1>{})));
       } else {
-        add((of(number<first>{}) + of(number<first + 1>{})) + (of(number<first + 2>{}) + of(number<first + 3>{})));
+        add(weigh(number<first>{}, (of(number<first>{}) + of(number<first + 1>{})) +
+                                       (of(number<first + 2>{}) + of(number<first + 3>{}))));
       }
     }
   });
   return total;
+}
+template <lattice L, class R, class Counts, class Of>
+[[nodiscard, gnu::always_inline]] inline R sum_over_pairs(Counts counts, Of of) noexcept {
+  return sum_over_pairs<L, R>(counts, of, [](auto, const R& part) TETRAPORE_INLINE { return part; });
 }
 
 /// Velocity of the first direction of pair k along an axis.

@@ -113,10 +113,7 @@ struct mixture {
       t.excess = excess[C];
       t.rho = m.rho[C];
       detail::repeat<axes>([&]<int A>(detail::number<A>) TETRAPORE_INLINE { t.velocity[A] = u[C][A]; });
-      R f[directions];
-      detail::fill_pairs<Lattice>(t, f);
-      detail::settle<Lattice>(f, t.excess);
-      detail::repeat<sites>([&]<int I>(detail::number<I> i) TETRAPORE_INLINE { give(c, i, f[I]); });
+      detail::give_settled<Lattice>(t, t.excess, [&](auto i, const R& f) TETRAPORE_INLINE { give(c, i, f); });
     });
   }
   /// The same of a node of a reservoir: the equilibrium of given densities at the velocity of what came in.
@@ -186,10 +183,10 @@ struct mixture {
   /// The populations of an equilibrium.
   template <class R>
   [[gnu::always_inline]] static void fill(const relaxation_target<R>& t, R (&f)[directions]) noexcept {
-    detail::fill_pairs<Lattice>(t, f);
     const R half = detail::constant<R>(0.5);
     const R excess = detail::on_grid(t.excess * half * half);
-    detail::settle<Lattice>(f, (excess + excess) + (excess + excess));
+    detail::give_settled<Lattice>(t, (excess + excess) + (excess + excess),
+                                  [&]<int I>(detail::number<I>, const R& value) TETRAPORE_INLINE { f[I] = value; });
   }
 
   /// The velocity of the mixture at a node, half of the force included.
@@ -261,14 +258,15 @@ struct mixture {
     detail::repeat<count>([&]<int C>(detail::number<C> c) TETRAPORE_INLINE {
       R step[pairs<Lattice>];
       detail::repeat<pairs<Lattice>>([&]<int K>(detail::number<K>) TETRAPORE_INLINE {
-        step[K] = detail::constant<R>(detail::pair_weight<K, Lattice>) *
-                  (seen(c, detail::number<2 * K + 1>{}) - seen(c, detail::number<2 * K + 2>{}));
+        step[K] = seen(c, detail::number<2 * K + 1>{}) - seen(c, detail::number<2 * K + 2>{});
       });
       detail::repeat<axes>([&]<int A>(detail::number<A>) TETRAPORE_INLINE {
         slope[C][A] = detail::sum_over_pairs<Lattice, R>(
             []<int K>(detail::number<K>) TETRAPORE_INLINE { return detail::along<Lattice>(K, A) != 0; },
             [&]<int K>(detail::number<K>)
-                TETRAPORE_INLINE { return detail::times_sign<detail::along<Lattice>(K, A)>(step[K]); });
+                TETRAPORE_INLINE { return detail::times_sign<detail::along<Lattice>(K, A)>(step[K]); },
+            [&]<int K>(detail::number<K>, const R& group)
+                TETRAPORE_INLINE { return detail::constant<R>(detail::pair_weight<K, Lattice>) * group; });
       });
     });
     detail::repeat<count>([&]<int C>(detail::number<C>) TETRAPORE_INLINE {

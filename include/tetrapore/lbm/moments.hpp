@@ -159,6 +159,10 @@ class simulation<Model, T, storage::moments, Lanes> : public detail::surrounding
   static constexpr int axes = lattice_type::dimensions;
   static constexpr std::size_t numbers = components * moments;
   using number = pack<T, Lanes>;
+  /// Nodes at the end of a run that half a register holds are worked out in one: cores that take two steps for the
+  /// widest registers gain by it, others lose nothing.
+  static constexpr int half_lanes = Lanes * sizeof(T) == 64 ? Lanes / 2 : 0;
+  using half_number = pack<T, half_lanes == 0 ? Lanes : half_lanes>;
 
   /// Planes of which that is kept that leaves forward in x, and the rest.
   static constexpr std::size_t forward_planes = 3;
@@ -459,36 +463,44 @@ class simulation<Model, T, storage::moments, Lanes> : public detail::surrounding
     const std::size_t psi_step = this->psi_step();
     const T* const psi = this->psi(0);
     T* const planes[3] = {sent_.data() + plane_of(2, x), sent_.data() + plane_of(0, x), sent_.data() + plane_of(1, x)};
-    const auto moment_of = [](const T* from) TETRAPORE_INLINE {
+    const auto moment_of = []<class Number>(const T* from, std::type_identity<Number>) TETRAPORE_INLINE {
       return [from]<int C, int K>(detail::number<C>, detail::number<K>)
-                 TETRAPORE_INLINE { return number::load(from + (C * moments + K) * width); };
+                 TETRAPORE_INLINE { return Number::load(from + (C * moments + K) * width); };
     };
     const auto place_of_sent = [&]<int C, int I>(detail::number<C>, detail::number<I>) TETRAPORE_INLINE {
       return planes[1 + lattice_type::velocity[I][0]] + (static_cast<std::size_t>(C) * directions + I) * sent_step;
     };
     for (std::size_t k = p.first_departure; k < p.last_departure; ++k) {
       const departure* d = &departures_[k];
-      const std::int32_t nodes = d->nodes;
+      std::int32_t left = d->nodes;
       const T* from = batch(d->batch);
       const T* shown = psi;
       std::uint32_t to = d->to;
-      for (std::int32_t n = 0; n < nodes; n += Lanes) {
+      const auto depart = [&]<class Number>(std::type_identity<Number> of) TETRAPORE_INLINE {
         for (std::size_t j = 0; j < numbers; ++j) {
           prefetch(from + (soon * numbers + j) * width);
         }
         for (std::size_t c = 0; c < components; ++c) {
           prefetch(shown + c * psi_step + d->seen[farthest - 1] + soon * width);
         }
-        model.template depart<number>(
-            moment_of(from),
+        model.template depart<Number>(
+            moment_of(from, of),
             [&]<int C, int I>(detail::number<C>, detail::number<I>)
-                TETRAPORE_INLINE { return number::load(shown + d->seen[I - 1] + C * psi_step); },
-            [&]<int C, int I>(detail::number<C> c, detail::number<I> i, const number& value)
+                TETRAPORE_INLINE { return Number::load(shown + d->seen[I - 1] + C * psi_step); },
+            [&]<int C, int I>(detail::number<C> c, detail::number<I> i, const Number& value)
                 TETRAPORE_INLINE { value.store(place_of_sent(c, i) + to); });
+      };
+      for (; left > half_lanes; left -= Lanes) {
+        depart(std::type_identity<number>{});
         from += numbers * width;
         shown += width;
         to += static_cast<std::uint32_t>(width);
         forget(d);
+      }
+      if constexpr (half_lanes > 0) {
+        if (left > 0) {
+          depart(std::type_identity<half_number>{});
+        }
       }
     }
     for (std::size_t k = p.first_held_departure; k < p.last_held_departure; ++k) {
@@ -501,7 +513,7 @@ class simulation<Model, T, storage::moments, Lanes> : public detail::surrounding
       for (std::int32_t n = 0; n < d.nodes; n += Lanes, from += numbers * width) {
         const std::uint32_t lanes = base::lanes_of(std::min(d.nodes - n, Lanes));
         model.template depart_held<number>(
-            rho, moment_of(from),
+            rho, moment_of(from, std::type_identity<number>{}),
             [&]<int C, int I>(detail::number<C> c, detail::number<I> i, const number& value) TETRAPORE_INLINE {
               T* const to = place_of_sent(c, i) + d.to + n;
               number::select(lanes, value, number::load(to)).store(to);
@@ -528,24 +540,33 @@ class simulation<Model, T, storage::moments, Lanes> : public detail::surrounding
       const T* from = sent;
       T* to = batch(a->batch);
       T* shown = psi + a->cell;
-      for (std::int32_t left = a->nodes; left > 0; left -= Lanes) {
-        const std::uint32_t lanes = base::lanes_of(std::min(left, Lanes));
-        Model::template arrive<number>(
+      std::int32_t left = a->nodes;
+      const auto arrive = [&]<class Number>(std::type_identity<Number>, int most) TETRAPORE_INLINE {
+        const std::uint32_t lanes = base::lanes_of(std::min(left, most));
+        Model::template arrive<Number>(
             [&]<int C, int I>(detail::number<C>, detail::number<I>)
-                TETRAPORE_INLINE { return number::load(from + a->from[I] + C * component_step); },
-            [&]<int C, int K>(detail::number<C>, detail::number<K>, const number& value) TETRAPORE_INLINE {
+                TETRAPORE_INLINE { return Number::load(from + a->from[I] + C * component_step); },
+            [&]<int C, int K>(detail::number<C>, detail::number<K>, const Number& value) TETRAPORE_INLINE {
               value.store(to + (C * moments + K) * width);
               if constexpr (K == 0) {
                 T* const now = shown + C * psi_step;
-                number::select(lanes, model.potential(number(static_cast<T>(model.reference[C])) + value),
-                               number::load(now))
+                Number::select(lanes, model.potential(Number(static_cast<T>(model.reference[C])) + value),
+                               Number::load(now))
                     .store(now);
               }
             });
+      };
+      for (; left > half_lanes; left -= Lanes) {
+        arrive(std::type_identity<number>{}, Lanes);
         from += width;
         to += numbers * width;
         shown += width;
         forget(a);
+      }
+      if constexpr (half_lanes > 0) {
+        if (left > 0) {
+          arrive(std::type_identity<half_number>{}, half_lanes);
+        }
       }
     }
     for (std::size_t k = p.first_held_cells; k < p.last_held_cells; ++k) {
