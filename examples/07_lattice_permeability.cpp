@@ -3,12 +3,13 @@
 // Lattice permeability: Stokes flow through a periodic packing, solved on a lattice between the grains, without network
 // and law: what conductance laws are measured against.
 //
-// Two lattices, one half as fine again as the other, tell how far the finer may be from the limit.
-// `lattice_permeability --help` lists the options.
+// Two lattices, one half as fine again as the other, tell how far the finer may be from the limit. With --state a run
+// that is killed goes on where it was. `lattice_permeability --help` lists the options.
 #include "support/keys.hpp"
 #include "support/options.hpp"
 #include "support/packing_options.hpp"
 #include "support/stopwatch.hpp"
+#include "support/wait_files.hpp"
 
 #include "tetrapore/io/csv.hpp"
 #include "tetrapore/lbm/permeability.hpp"
@@ -33,6 +34,7 @@ struct lattice_job : support::packing_job {
   std::size_t axis = 0;
   tp::lbm::permeability_options how;
   std::string precision = "double";
+  std::string state;  // the folder of states, if there is one
 };
 
 std::optional<lattice_job> read_job(int argc, char** argv) {
@@ -47,6 +49,7 @@ std::optional<lattice_job> read_job(int argc, char** argv) {
   app.add_option("--tau", tau, "relaxation time; the result does not depend on it")->capture_default_str();
   app.add_option("--steady", steady, "relative change of the flux at which it is steady")->capture_default_str();
   app.add_option("--precision", job.precision, "float or double")->capture_default_str();
+  app.add_option("--state", job.state, "folder for the state of a run: killed, it goes on from there");
   support::packing_options common(app, shipped);
   if (!common.read(argc, argv, job)) {
     return std::nullopt;
@@ -63,6 +66,9 @@ std::optional<lattice_job> read_job(int argc, char** argv) {
   job.how.steady = support::number_of("--steady", steady, support::positive, "a number above 0");
   if (job.precision != "float" && job.precision != "double") {
     support::refuse("--precision", job.precision, "float or double");
+  }
+  if (app.count("--state") > 0) {
+    job.state = support::folder_of("--state", job.state).string();
   }
   return job;
 }
@@ -94,12 +100,16 @@ tp::lbm::lattice_permeability measured(const tp::lbm::periodic_spheres& p, int n
   return answer.value;
 }
 
-void run(const lattice_job& job) {
+void run(lattice_job job) {
   const tp::packing packing = support::read_grains(job);
   const tp::lbm::periodic_spheres p = on_lattice(packing);
   double radius = 0;
   for (const auto& g : p.spheres) {
     radius += g.radius / static_cast<double>(p.spheres.size());
+  }
+  std::optional<support::wait_files> kept;
+  if (!job.state.empty()) {
+    job.how.kept = &kept.emplace(job.state);
   }
   support::stopwatch watch;
   const auto coarse = measured(p, job.nodes / 3 * 2, job);
@@ -114,7 +124,10 @@ void run(const lattice_job& job) {
   file.commit();
 
   const auto limit = tp::lbm::extrapolated(coarse, fine);
-  const auto updates = static_cast<double>(coarse.updates() + fine.updates());
+  std::size_t updates = 0;  // in these seconds
+  for (const auto& k : {coarse, fine}) {
+    updates += k.fluid_nodes * (k.steps - k.taken_up);
+  }
   const support::key_printer print;
   print("grains", packing.grains.size());
   print("nodes", static_cast<std::size_t>(job.nodes));
@@ -128,7 +141,7 @@ void run(const lattice_job& job) {
   print("permeability_extrapolated", limit.permeability);
   print("discretisation_estimate", limit.discretisation);
   print("steps", coarse.steps + fine.steps);
-  print("mlups", updates / seconds * 1e-6);
+  print("mlups", static_cast<double>(updates) / seconds * 1e-6);
   print("seconds", seconds);
 }
 
@@ -138,7 +151,10 @@ int main(int argc, char** argv) {
       run(*job);
     }
     return 0;
-  } catch (const tp::setup_error& e) {  // the command line or the packing
+  } catch (const tp::io::output_error& e) {
+    std::fprintf(stderr, "lattice_permeability: %s\n", e.what());
+    return 1;
+  } catch (const tp::setup_error& e) {  // the command line, the packing or a state
     std::fprintf(stderr, "lattice_permeability: %s\n", e.what());
     return 2;
   } catch (const std::exception& e) {

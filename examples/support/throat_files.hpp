@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "support/byte_files.hpp"
 #include "tetrapore/io/pvd.hpp"
 #include "tetrapore/io/vti.hpp"
 #include "tetrapore/lbm/entry_experiment.hpp"
@@ -11,14 +12,12 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <string>
 #include <vector>
 
 /// \file
-/// What throat_experiment writes: pictures of the fluids in time, and a state that another run takes up.
+/// What throat_experiment writes: pictures of the fluids in time.
 
 namespace support {
 
@@ -75,20 +74,5 @@ class throat_series {
   std::string name_;
   tetrapore::io::pvd_series list_;
 };
-
-[[nodiscard]] inline std::vector<std::byte> bytes_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::vector<char> text{std::istreambuf_iterator<char>(file), {}};
-  std::vector<std::byte> bytes(text.size());
-  for (std::size_t k = 0; k < text.size(); ++k) {
-    bytes[k] = static_cast<std::byte>(text[k]);
-  }
-  return bytes;
-}
-inline void write_bytes(const std::filesystem::path& path, const std::vector<std::byte>& bytes) {
-  tetrapore::io::output_file file(path);
-  file.write(bytes.data(), bytes.size());
-  file.commit();
-}
 
 }  // namespace support

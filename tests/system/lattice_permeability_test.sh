@@ -26,7 +26,29 @@ expect porosity "> 0.53"
 expect porosity "< 0.57"
 runs "in float, along z" cubic.txt --periodic xyz --nodes 12 --axis z --steady 1e-3 --precision float --tau 0.8
 
-helps --nodes --axis --tau --steady --precision
+title="a killed run goes on to the same numbers"
+taken_up="cubic.txt --periodic xyz --nodes 24 --steady 1e-4 --out out --state kept"
+same() { grep -Ev '^(mlups|seconds)=' "$1"; }
+"$binary" ${taken_up% --state kept} >whole 2>stderr || fail "$title: exit code $?"
+"$binary" $taken_up >stdout 2>stderr &
+pid=$!
+while [ ! -e kept/wait_2.bin ] && kill -0 "$pid" 2>/dev/null; do sleep 0.02; done
+kill -9 "$pid" 2>/dev/null || fail "$title: it ended before it was killed"
+wait "$pid" 2>/dev/null
+"$binary" $taken_up >stdout 2>stderr || fail "$title: exit code $?"
+grep -q "takes up kept/wait_2.bin" stderr || fail "$title: it began anew"
+diff <(same whole) <(same stdout) || fail "$title: other numbers"
+title="a finished state answers at once"
+"$binary" $taken_up >stdout 2>stderr || fail "$title: exit code $?"
+diff <(same whole) <(same stdout) || fail "$title: other numbers"
+expect mlups "== 0"
+title="the state of another run"
+exits 2 "state of wait 1: found the state of another experiment" ${taken_up/1e-4/1e-3}
+title="a damaged state"
+printf 'x' | dd of=kept/wait_1.bin bs=1 seek=5000 conv=notrunc 2>/dev/null
+exits 2 "found a checksum that does not match" $taken_up
+
+helps --nodes --axis --tau --steady --precision --state
 refuses "walls" "does not repeat" cubic.txt --nodes 12
 refuses "an odd number of nodes" "multiple of 3" cubic.txt --periodic xyz --nodes 13
 refuses "tau" "above 0.5" cubic.txt --periodic xyz --tau 0.5

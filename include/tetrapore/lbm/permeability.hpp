@@ -67,6 +67,7 @@ struct lattice_permeability {
   std::size_t wall_links;      ///< from a fluid node to a solid one
   std::size_t half_way_links;  ///< those whose wall is taken half-way, for want of a node on their other side
   std::size_t steps;
+  std::size_t taken_up;  ///< of the steps: made by runs before this one
 
   [[nodiscard]] std::size_t updates() const noexcept { return fluid_nodes * steps; }
 };
@@ -289,6 +290,7 @@ template <lattice L = d3q19, std::floating_point T = double>
                          s.sites().size(),
                          cuts.size(),
                          cuts.size() - walls.size(),
+                         0,
                          0};
   const auto pace = static_cast<std::size_t>(100 / model.viscosity(0)) + 1;
   // as fast as inertia allows, so that rounding matters least: Re < 0.05 across the box, far below the speed of sound
@@ -301,6 +303,7 @@ template <lattice L = d3q19, std::floating_point T = double>
   kept_wait kept(how.kept, s, parameter_hash{}.add(how.steady).add(std::uint64_t{how.cap}), [&] { run(2); });
   if (kept.take_up(now)) {
     pull(now.gravity);
+    r.taken_up = now.steps;
   }
   while (!now.steady && now.steps < how.cap) {
     run(pace);

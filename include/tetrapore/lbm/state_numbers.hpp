@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "tetrapore/core/contracts.hpp"
+
 #include <cstddef>
 #include <type_traits>
 #include <utility>
