@@ -159,10 +159,14 @@ TEST_CASE("bubbles and menisci at rest show the tensions and angles that are ask
     });
     CHECK(std::abs(flat.at(2) - t.width) < 0.06);
     CHECK(std::abs(b.at(5) - t.dissolved) < (t.attraction < 1.5 ? 3e-3 : 1.2e-3));
-    CHECK(std::abs(b.at(6) / t.spurious - 1) < 0.15);  // figures of one or two digits; 13 % at 1.4, −11 % at 2.4
+    // figures of one or two digits: 9e-4 stands for 8.5e-4 to 9.5e-4, and 13 % at 1.4 and −12 % at 2.4 are beyond that; a
+    // bound that keeps them where they are
+    CHECK(std::abs(b.at(6) / t.spurious - 1) < 0.15);
   }
 
-  // the mean main density kept, and the radius that treats both components alike: σ hardly depends on R
+  // the mean main density kept, and the radius that treats both components alike: σ hardly depends on R, and is that of
+  // the table to the accuracy that it states
+  const double of_table = surface_tension(calibrated(forcing_kind::velocity_shift, 1, 1.8).value, 1.003);
   for (const double radius : {7.7, 12.6, 18.0, 23.6}) {
     const auto b = book.row(name_of("mean_bubble", 1.8, radius), [&] {
       const laplace_result r = laplace<>(
@@ -170,7 +174,7 @@ TEST_CASE("bubbles and menisci at rest show the tensions and angles that are ask
       REQUIRE(r.rest.end == hold_end::stable);
       return std::vector<double>{r.tension, r.radius};
     });
-    CHECK(std::abs(b.at(0) / 0.0875 - 1) < 1e-3);
+    CHECK(std::abs(b.at(0) / of_table - 1) < 3e-3);
   }
 
   // half a ball on an inclined mirror of images and on a face of the box: bounds are what is reached
