@@ -4,6 +4,7 @@
 #include "tetrapore/core/error.hpp"
 #include "tetrapore/core/outcome.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
@@ -51,10 +52,10 @@ enum class hold_end : std::uint8_t {
 
 /// What a hold found.
 struct hold_report {
-  double value = 0;     ///< that was set
-  double measured = 0;  ///< what the fluids show of it
-  double position = 0;  ///< of the interface
-  double film = 1;      ///< share of the liquid that is left beside wetting walls: a tenth of the nodes there has less
+  double value = 0;                     ///< that was set
+  double measured = quiet_nan<double>;  ///< what the fluids show of it; NaN where nothing was measured
+  double position = 0;                  ///< of the interface
+  double film = 1;  ///< share of the liquid that is left beside wetting walls: a tenth of the nodes there has less
   std::uint64_t steps = 0;
   std::uint64_t updates = 0;  ///< of a fluid node, all components as one
   hold_end end = hold_end::stable;
@@ -113,14 +114,16 @@ struct search_options {
 /// Bisection from a bracket that need not hold the threshold: an end that turns out to lie on the other side becomes
 /// the other end, and a new one is sought beyond. Values go up wherever they can: the first is the lower end. A hold
 /// that ends while the fluid still creeps was close to the threshold: values half a width above and below decide.
-/// A value at which a phase falls apart is a ceiling: the search goes on below it.
+/// A value at which a phase falls apart is a ceiling: the search goes on below it. A hold whose fluids show another
+/// value than was set says nothing of the threshold; while no stable one is known the search goes on above it, since
+/// far below a threshold an interface may stand so near to a reservoir that fluid flows between them.
 class threshold_search {
  public:
   /// Everything that a search remembers. Plain numbers, to be saved as they are.
   struct memory {
     double lower = 0;
     double upper = 0;
-    double measured_lower = 0;  ///< what the last stable hold showed
+    double measured_lower = quiet_nan<double>;  ///< what the last stable hold showed; NaN where it was not measured
     double position_lower = 0;
     double film_lower = 1;  ///< its film
     double creeping = 0;    ///< a value at which the fluid still moved at the last step allowed; 0: none
@@ -200,6 +203,12 @@ class threshold_search {
       if (memory_.lower_known == 0) {
         widen(memory_.lower, held / stride(), search_end::undecided);
       }
+    } else if (r.end == hold_end::flowing && memory_.lower_known == 0 &&
+               !(memory_.upper_known != 0 && narrow(held, memory_.upper))) {
+      memory_.creeping = 0;
+      const double next = memory_.upper_known != 0 ? (held + memory_.upper) / 2 : held * stride();
+      memory_.upper = std::max(memory_.upper, next);
+      widen(memory_.lower, next, search_end::undecided);
     } else {
       memory_.end = search_end::undecided;
     }

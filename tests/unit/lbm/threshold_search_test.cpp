@@ -19,12 +19,14 @@ struct gate {
   int returned = 0;
   hold_end failure = hold_end::stable;
   double bears = 1e300;
+  double flows_below = 0;
 
   hold_report hold(double value) {
     held.push_back(value);
     hold_report r{.value = value, .measured = 0.99 * value, .steps = 10, .updates = 100};
     r.end = failure != hold_end::stable ? failure
             : value > bears             ? hold_end::dissolved
+            : value < flows_below       ? hold_end::flowing
             : value > threshold         ? hold_end::passed
                                         : hold_end::stable;
     return r;
@@ -106,7 +108,7 @@ TEST_CASE("a search in which every hold creeps ends undecided") {
 }
 
 TEST_CASE("a hold without an answer ends the search and is named") {
-  for (const hold_end why : {hold_end::not_finite, hold_end::flowing, hold_end::drifting}) {
+  for (const hold_end why : {hold_end::not_finite, hold_end::drifting}) {
     gate g{1};
     g.failure = why;
     threshold_search s({});
@@ -117,6 +119,32 @@ TEST_CASE("a hold without an answer ends the search and is named") {
     CHECK(verdict_of(why) == verdict::failed);
     CHECK(verdict_of(s.now().end) == verdict::failed);
   }
+}
+
+TEST_CASE("a search goes on above values at which something flows, until it has a stable one") {
+  for (const double start : {0.4, 0.6, 0.7, 0.85}) {
+    gate g{1};
+    g.flows_below = 0.8;
+    threshold_search s({.lower = start * 0.7, .upper = start * 1.3, .width = 0.03});
+    run(g, s);
+    CAPTURE(start);
+    CHECK(s.now().end == search_end::converged);
+    CHECK(s.now().lower <= 1);
+    CHECK(s.now().upper > 1);
+    CHECK(s.now().lower >= 0.8);
+  }
+  gate closed{1};
+  closed.flows_below = 1;  // passes or flows: no stable value anywhere
+  threshold_search vain({.lower = 0.5, .upper = 1.2});
+  run(closed, vain);
+  CHECK(verdict_of(vain.now().end) != verdict::ok);
+  gate g{1};
+  g.failure = hold_end::flowing;
+  threshold_search s({});
+  run(g, s);
+  CHECK(s.now().end == search_end::undecided);
+  CHECK(s.now().last == hold_end::flowing);
+  CHECK(s.now().holds <= 9);
 }
 
 TEST_CASE("fluids that show another value than was set are named, but for what an interface spends on its way") {
