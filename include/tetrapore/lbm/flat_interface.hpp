@@ -77,7 +77,7 @@ template <class Model>
 /// end is `missed`.
 /// \par Units     lattice units
 /// \par Domain    mixtures of two components that part; collisions with one relaxation time for momentum
-/// \par Accuracy  the normal stress is constant to 2e-8 of itself; σ agrees with bubbles in the limit of large R
+/// \par Accuracy  the normal stress is constant to 2e-12 of the pressure; σ agrees with bubbles in the limit of large R
 /// \par Source    momentum balance of a step, derived here; bonds as in Shan, Phys. Rev. E 77, 066702 (2008)
 template <class Model = mixture<d2q9, bgk>>
 [[nodiscard]] flat_interface measure_flat_interface(const flat_set_up& o) {

@@ -20,10 +20,12 @@ struct grains {
   double radii[3];
   double gaps[3];                 ///< 12, 23, 31
   std::vector<double> inscribed;  ///< nodes
-  double truth;  ///< entry pressure over the least plane value: Surface Evolver, at θ = 10 and 20° extrapolated to 0
+  /// Entry pressure over the least plane value. Equal spheres: Surface Evolver (tests/truth/se_results.csv), at θ = 0 by
+  /// a line in θ², from 20 and 40° (gap 0.4 R) or 10 and 20° (0.2 R), ± 0.002; touching: its value at 20°, ± 0.018.
+  double truth;
 };
-const grains throats[] = {{"touching", {1, 1, 1}, {0, 0, 0}, {4, 4.5, 5, 5.5, 6}, 1.00},
-                          {"gap 0.4 R", {1, 1, 1}, {0.4, 0.4, 0.4}, {4, 5}, 0.994},
+const grains throats[] = {{"touching", {1, 1, 1}, {0, 0, 0}, {4, 4.5, 5, 5.5, 6, 7, 8.5}, 1.00},
+                          {"gap 0.4 R", {1, 1, 1}, {0.4, 0.4, 0.4}, {4, 5, 6.5, 8.5}, 0.994},
                           {"gap 0.2 R", {1, 1, 1}, {0.2, 0.2, 0.2}, {4, 5}, 0.974},
                           {"1, 0.7, 0.5 touching", {1, 0.7, 0.5}, {0, 0, 0}, {4, 5}, 1.00},
                           {"1, 0.8, 0.6, gaps 0.1, 0.2, 0.3", {1, 0.8, 0.6}, {0.1, 0.2, 0.3}, {4, 5}, 1.00}};
