@@ -25,6 +25,13 @@ struct wall_cut {
   double share;  ///< of the link, from the node on: above 0, at most 1
 };
 
+namespace detail {
+
+template <class Simulation>
+concept keeps_populations = requires(Simulation& s) { s.population(0, 0, 0); };
+
+}  // namespace detail
+
 /// What curved walls change of the populations that come back from them: to be applied after every step.
 ///
 /// What leaves x in direction i and meets the wall after a share q of the link comes back as
@@ -38,6 +45,10 @@ struct wall_cut {
 /// \par Source  Ginzburg, Verhaeghe & d'Humières, Commun. Comput. Phys. 3, 427 (2008): central linear interpolation
 template <class Simulation>
 class curved_walls {
+  static_assert(Simulation::components == 1, "curved_walls: populations of one component");
+  static_assert(detail::keeps_populations<Simulation>,
+                "curved_walls: storage::moments keeps no populations, take storage::in_place");
+
  public:
   /// Throws parameter_error for a share outside its domain.
   curved_walls(Simulation& s, std::span<const wall_cut> cuts) : simulation_(&s) {

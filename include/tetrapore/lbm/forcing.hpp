@@ -54,18 +54,24 @@ template <int Axes, bool HalfForce, class R, std::size_t Components>
   });
 }
 
+template <class F>
+concept tells_source =
+    requires(const F f, const node_motion<double, 2>& m, std::size_t component, const double (&u)[3]) {
+      { f.template source<3>(m, component, u) } -> std::same_as<guo_source<double>>;
+    };
+
 }  // namespace detail
 
 /// A forcing scheme.
 /// Syntax: `F::carries_source`; `forcing.prepare<Axes>(motion, velocity)` fills the velocity of each component's
-/// equilibrium; with a source, `forcing.source<Axes>(motion, component, velocity)`.
+/// equilibrium; where it carries a source, `forcing.source<Axes>(motion, component, velocity)`, a guo_source.
 /// Semantics: over a step the total momentum grows by the total force.
 /// Models: velocity_shift, guo.
 template <class F>
 concept forcing_scheme = std::copyable<F> && requires(const F f, const node_motion<double, 2>& m, double (&u)[2][3]) {
   { F::carries_source } -> std::convertible_to<bool>;
   f.template prepare<3>(m, u);
-};
+} && (!F::carries_source || detail::tells_source<F>);
 
 /// Each component relaxes to the common velocity plus τ F/ρ.
 /// \par Source  Shan & Chen, Phys. Rev. E 47, 1815 (1993)

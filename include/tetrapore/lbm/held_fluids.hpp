@@ -57,6 +57,10 @@ inline constexpr storage leanest_storage = requires {
 template <std::floating_point T, class Model, storage Storage = leanest_storage<Model>>
 class held_fluids {
   static_assert(Storage != storage::two_lattices, "held_fluids takes storage::in_place or storage::moments");
+  static_assert(Model::components == 2, "held_fluids: a gas and a liquid, two components");
+  static_assert(Model::lattice_type::dimensions == 3, "held_fluids: a meniscus is seen along z, on three dimensions");
+  static_assert(std::same_as<decltype(Model::potential), linear_potential>,
+                "held_fluids: reservoirs are known for psi = rho");
 
  public:
   using simulation_type = simulation<Model, T, Storage>;

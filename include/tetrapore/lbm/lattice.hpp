@@ -18,6 +18,12 @@
 /// A lambda of a kernel: the loop over nodes must become one piece of code, or its numbers live in memory.
 #define TETRAPORE_INLINE __attribute__((always_inline))
 
+/// What was read is read again: a compiler would keep it, on the stack where registers run out. A back end that has no
+/// use for this defines it empty.
+#ifndef TETRAPORE_READ_AGAIN
+#define TETRAPORE_READ_AGAIN() asm volatile("" ::: "memory")
+#endif
+
 namespace tetrapore::inline TETRAPORE_ABI {
 namespace lbm {
 

@@ -69,7 +69,7 @@ struct mixture {
     R excess[Components];
     moments_of(take, m, excess);
     accelerate(seen, m);
-    asm volatile("" ::: "memory");  // else a compiler keeps the first taking, on the stack
+    TETRAPORE_READ_AGAIN();
     R u[Components][3];
     forcing.template prepare<axes>(m, u);
     detail::repeat<count>([&]<int C>(detail::number<C> c) TETRAPORE_INLINE {

@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The state of fluids that are held is kept, which two lattices would double.
+// expect: held_fluids takes storage::in_place or storage::moments
+#include "tetrapore/lbm/held_fluids.hpp"
+
+using namespace tetrapore::lbm;
+using held = held_fluids<double, mixture<d3q19, bgk>, storage::two_lattices>;
+static_assert(sizeof(held) > 0);
