@@ -3,6 +3,7 @@
 // Permeability by lattice Boltzmann, of simple cubic spheres against Zick & Homsy (J. Fluid Mech. 115, 13, 1982), and
 // its curved walls against Poiseuille's flow in a round tube.
 
+#include "support/killed_waits.hpp"
 #include "support/sanitized.hpp"
 #include "tetrapore/lbm/permeability.hpp"
 
@@ -159,4 +160,19 @@ TEST_CASE("a permeability that cannot be measured is refused, or said not to be 
   CHECK(refused(p, 12, 0));  // nothing resists
   p.spheres[0].radius = std::numeric_limits<double>::quiet_NaN();
   CHECK(refused(p, 12, 0));
+}
+
+TEST_CASE("a permeability that is killed goes on to the bit; the state of another is refused") {
+  const auto of = [](double fraction, double tau) {
+    return [=](kept_waits* kept) {
+      permeability_options how{.tau = tau, .steady = 1e-3};
+      how.kept = kept;
+      const auto k = measure_permeability(simple_cubic(fraction), 8, 0, how);
+      return std::vector{k.value.permeability, static_cast<double>(k.value.steps), static_cast<double>(k.reason)};
+    };
+  };
+  const auto all = killed_waits::goes_on_to_the_bit(of(0.3, 1), 1);
+  killed_waits::refuses(all, of(0.301, 1));
+  killed_waits::refuses(all, of(0.3, 1.001));
+  killed_waits::goes_on_to_the_bit(of(0.3, 0.8), 1);  // an odd number of steps between two looks
 }

@@ -2,10 +2,12 @@
 //
 // Fluids at rest: what the shipped table says is measured again for some of its entries.
 #include "support/half_bubbles.hpp"
+#include "support/killed_waits.hpp"
 #include "support/sanitized.hpp"
 #include "tetrapore/lbm/calibrate.hpp"
 #include "tetrapore/lbm/calibration.hpp"
 #include "tetrapore/lbm/drop.hpp"
+#include "tetrapore/lbm/pendular_experiment.hpp"
 #include "tetrapore/lbm/tube_experiment.hpp"
 
 #include <doctest/doctest.h>
@@ -101,4 +103,29 @@ TEST_CASE("a drop too flat for the rows of the lattice is refused") {
   const calibrated_mixture m = calibrated(forcing_kind::velocity_shift, 1, 1.8).value;
   CHECK_THROWS_AS(static_cast<void>(drop_on_wall<>({.mixture = m, .contact_angle = 20 * degree, .base = 40})),
                   parameter_error);
+}
+
+TEST_CASE("a bridge and a tube that are killed go on to the bit") {
+  const calibrated_mixture m = calibrated(forcing_kind::velocity_shift, 1, 1.8).value;
+  const auto bridge = [&](kept_waits* kept) {
+    const pendular_result b = pendular_bridge<>(
+        {.mixture = m, .radius = 6, .gap = 0.2, .suction = 0.2, .margin = 4, .rest = {100, 1e-2, 1, 3000, kept}});
+    return killed_waits::with_rest(
+        {b.suction, b.force, b.volume, b.neck, b.law_force, b.law_volume, b.law_neck, b.tension, b.dry}, b.rest);
+  };
+  const auto square_tube = [&](kept_waits* kept) {
+    tube_set_up o{};
+    o.nodes_per_length = 5;
+    o.gas = 2;
+    o.liquid = 1.5;
+    o.mixture = m;
+    o.kept = kept;
+    for (const vec2<double> out : {vec2<double>{0, -1}, {1, 0}, {0, 1}, {-1, 0}}) {
+      o.section.add_line(out, out * -1.0);
+    }
+    const tube_result t = tube_at_rest<>(o);
+    return killed_waits::with_rest({t.pressure, t.entry, t.law, t.tension, t.shift, t.retraction, t.flow}, t.rest);
+  };
+  killed_waits::goes_on_to_the_bit(bridge, 2);
+  killed_waits::goes_on_to_the_bit(square_tube, 3);
 }
