@@ -10,6 +10,9 @@ case $1 in
   */network/*) group=network ;;
   */packing/*) group=packing ;;
   */tessellation/*) group=tessellation ;;
+  */solver/*) group=solver ;;
+  */lbm/*) group=lbm ;;
+  */one_phase/*) group=one_phase ;;
   */two_phase/*) group=two_phase ;;
   */io/*) group=io ;;
   *) exec cat "$1" ;;
