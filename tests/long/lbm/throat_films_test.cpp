@@ -20,8 +20,8 @@ struct grains {
   double radii[3];
   double gaps[3];                 ///< 12, 23, 31
   std::vector<double> inscribed;  ///< nodes
-  /// Entry pressure over the least plane value. Equal spheres: Surface Evolver (tests/truth/se_results.csv), at θ = 0 by
-  /// a line in θ², from 20 and 40° (gap 0.4 R) or 10 and 20° (0.2 R), ± 0.002; touching: its value at 20°, ± 0.018.
+  /// Entry pressure over the least plane value. Equal spheres: Surface Evolver (tests/truth/se_results.csv), at θ = 0
+  /// by a line in θ², from 20 and 40° (gap 0.4 R) or 10 and 20° (0.2 R), ± 0.002; touching: that of 20°, ± 0.018.
   double truth;
 };
 const grains throats[] = {{"touching", {1, 1, 1}, {0, 0, 0}, {4, 4.5, 5, 5.5, 6, 7, 8.5}, 1.00},
