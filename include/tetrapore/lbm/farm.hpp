@@ -22,9 +22,11 @@ namespace lbm {
 /// Calls task(0), task(1), …, each once, on as many threads as asked: each takes the next task when it is done with its
 /// last, so that the long ones do well at the front. Tasks must not share what they write. What a task makes inside
 /// itself lies in the memory next to its core; so let it make its experiment there.
-/// Throws what the first task that failed has thrown, when all threads have stopped; no task begins behind a failure.
-/// Where a thread cannot be started it throws std::system_error, likewise when the others have stopped.
+/// What the first task that failed has thrown is thrown when all threads have stopped; no task begins behind it.
+/// \par Domain    any number of tasks, 0 to 4096 threads
 /// \param threads  0: as many as the machine has cores
+/// \throw parameter_error    more threads
+/// \throw std::system_error  a thread that cannot be started: when the others have stopped
 template <class Task>
   requires std::invocable<Task&, std::size_t>
 void farm(std::size_t tasks, Task task, std::size_t threads = 0) {

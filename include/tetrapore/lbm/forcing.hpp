@@ -74,7 +74,9 @@ concept forcing_scheme = std::copyable<F> && requires(const F f, const node_moti
 } && (!F::carries_source || detail::tells_source<F>);
 
 /// Each component relaxes to the common velocity plus τ F/ρ.
-/// \par Source  Shan & Chen, Phys. Rev. E 47, 1815 (1993)
+/// \par Accuracy  first order in the force: two components of ψ = ρ part with a c that is 0.1, 0.2 and 1.8 % below
+///                1/(1 − 1/2τ) at G = 1.6, 1.8 and 2.4, τ = 1
+/// \par Source    Shan & Chen, Phys. Rev. E 47, 1815 (1993)
 struct velocity_shift {
   static constexpr bool carries_source = false;
 
@@ -92,7 +94,10 @@ struct velocity_shift {
 static_assert(forcing_scheme<velocity_shift>);
 
 /// A source in the populations, of second order in time; all components relax to one velocity, half the force included.
-/// \par Source  Guo, Zheng & Shi, Phys. Rev. E 65, 046308 (2002); several components: weighted by 1/τ, derived here
+/// \par Accuracy  two components of ψ = ρ part with a c that is 0.9, 6.6 and 11 % above 1 at G = 2.4, 3.6 and 4, τ = 1;
+///                one component with ψ = 1 − exp(−ρ) has the densities of the equal-area rule to 1e-6 at G = −4.4 and
+///                τ = 1
+/// \par Source    Guo, Zheng & Shi, Phys. Rev. E 65, 046308 (2002); several components: weighted by 1/τ, derived here
 struct guo {
   static constexpr bool carries_source = true;
 

@@ -214,8 +214,8 @@ template <lattice L>
   return first;
 }
 
-/// The sum of `of(k)` over the pairs of a lattice for which `counts(k)`, in the order that mirrors leave alone; the part
-/// of pairs k, k + 1, … of one length goes through `weigh(k, part)`. Without a single pair: 0.
+/// The sum of `of(k)` over the pairs of a lattice for which `counts(k)`, in the order that mirrors leave alone; the
+/// part of pairs k, k + 1, … of one length goes through `weigh(k, part)`. Without a single pair: 0.
 template <lattice L, class R, class Counts, class Of, class Weigh>
 [[nodiscard, gnu::always_inline]] inline R sum_over_pairs(Counts counts, Of of, Weigh weigh) noexcept {
   R total(0);
