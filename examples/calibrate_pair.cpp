@@ -3,7 +3,7 @@
 // Two components that repel each other, measured: flat interfaces, bubbles, menisci between plates. Prints the header
 // include/tetrapore/lbm/calibrated/mixtures.hpp; with arguments rows of it alone:
 //   calibrate_pair [velocity_shift|guo TAU G]…
-// Some minutes on a core. Rows that do not come to rest are named on stderr and left out.
+// About half an hour on a core. Rows that do not come to rest are named on stderr and left out.
 #include "tetrapore/lbm/calibrate.hpp"
 
 #include <cstdio>
