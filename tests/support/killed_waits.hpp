@@ -75,6 +75,11 @@ states goes_on_to_the_bit(Experiment experiment, std::size_t waits) {
   memory finished(all);
   CHECK(experiment(&finished) == whole);
   CHECK(finished.saves() == 0);
+  states without_first = all;
+  without_first.erase(0);
+  memory lost(without_first);
+  CHECK(experiment(&lost) == whole);
+  CHECK(lost.saves() > 0);
   return all;
 }
 
