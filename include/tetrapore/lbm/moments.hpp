@@ -39,6 +39,7 @@ class simulation<Model, T, storage::moments, Lanes> : public detail::surrounding
 
   /// All nodes at the mixture's reference densities, at rest; walls and reservoirs show them too.
   /// \param in_cache  bytes that what leaves the planes in use may take: a share of the last cache
+  /// \throw parameter_error  a collision with another τ than 1; 2^32 populations or more
   simulation(const Model& model, site_map<lattice_type> map, std::size_t in_cache = std::size_t{3} << 20U)
       : base(model, std::move(map), width) {
     for (const auto& c : model_.collisions) {

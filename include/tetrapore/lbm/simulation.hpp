@@ -41,6 +41,7 @@ class simulation : public detail::surroundings<Model, T, Lanes, Storage == stora
   using typename base::lattice_type;
 
   /// All nodes at the mixture's reference densities, at rest; walls and reservoirs show them too.
+  /// \throw parameter_error  a collision with τ of 1/2 or less; 2^32 populations or more
   simulation(const Model& model, site_map<lattice_type> map) : base(model, std::move(map), 1) {
     f_.assign(components * directions * rows_.stride() + beyond, T(0));
     if constexpr (Storage == storage::two_lattices) {

@@ -63,9 +63,6 @@ std::vector<campaigns::row> measured() {
       rows.push_back(row_of_hold("claimed_pair", s, 0.8));  // the tension of another pair
       if (const auto pair = measure_pair<fluids>(s.pair.attraction, tau); pair.ok()) {
         s.pair = pair.value;
-        if (const auto known = calibrated(forcing_kind::velocity_shift, tau, s.pair.attraction); known.ok()) {
-          s.pair.surface_tension = surface_tension(known.value, s.pair.main);
-        }
         rows.push_back(row_of_hold("measured_pair", s, 0.8));
         rows.push_back(row_of_hold("measured_pair", s, 1.25));
       }

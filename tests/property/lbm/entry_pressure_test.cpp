@@ -68,6 +68,9 @@ TEST_CASE("a pair that nobody has measured is measured, and refused where it is 
   CHECK_NOTHROW(entry_experiment<float>{s});
   s.pair.surface_tension *= 1.03;
   CHECK_THROWS_AS(entry_experiment<float>{s}, parameter_error);
+  const auto known = measure_pair<mixture<d3q19, bgk>>(2.1, 1.5);  // its bubbles have 6 % more tension than its plane
+  REQUIRE(known.ok());
+  CHECK_NOTHROW(check_pair<mixture<d3q19, bgk>>(known.value, 1.5));
 }
 
 TEST_CASE("a throat that the lattice does not resolve is refused") {
