@@ -66,8 +66,6 @@ struct calibrated_pair {
   double factor;           ///< c of `coexistence`, from the flat interface
   double common;           ///< w, from a meniscus in a throat
   double surface_tension;  ///< of a bubble of R = 18 nodes, mean main density as above
-  double flat_tension;     ///< limit of large R
-  double curvature;        ///< σ = flat_tension × (1 + curvature / R), R in nodes
 };
 
 /// Densities on both sides of an interface: first the non-wetting component, then the wetting one.

@@ -27,8 +27,10 @@
 namespace tetrapore::inline TETRAPORE_ABI {
 namespace lbm {
 
-/// The measured pairs of `calibrate_pair`: G = 1.8 leaves an interface of 2.9 nodes and slow spurious currents.
-inline constexpr calibrated_pair pair_18{1.8, 1.003, 1.99526, 0.5, 0.0877, 0.0870, 0.14};
+/// The pair of the throats: G = 1.8 leaves an interface of 2.9 nodes and slow spurious currents. Its tension is that of
+/// a bubble of 17.4 nodes, p_c shared between gas and liquid, and the unit of every entry pressure that is kept; the
+/// table of measured mixtures says 0.2 % less.
+inline constexpr calibrated_pair pair_18{1.8, 1.003, 1.99526, 0.5, 0.0877};
 
 /// Contact angles above 0 at which entry pressures were compared with Surface Evolver. \par Units  θ [rad]
 [[nodiscard]] constexpr bool entry_angle_measured(double contact_angle) noexcept {
@@ -76,12 +78,12 @@ inline constexpr calibrated_pair pair_18{1.8, 1.003, 1.99526, 0.5, 0.0877, 0.087
 /// What an entry experiment is made of.
 /// \par Units  lattice units but where said
 struct entry_set_up {
-  opening<double> throat;  ///< three discs, in any unit of length
-  std::array<prism_side, 3> sides{};
+  opening<double> throat;              ///< three discs, in any unit of length
+  std::array<prism_side, 3> sides{};   ///< that between discs k and k + 1
   double nodes_per_length = 1;         ///< nodes per unit of the throat
   std::optional<double> retraction{};  ///< nodes by which grains shrink; none: `entry_retraction` of the angle
   double clear = 0.7;                  ///< how far the upper reservoir lies at most, in radii of the largest grain
-  double plug = 4;                     ///< nodes that it keeps from the grains
+  double plug = 4;                     ///< nodes that it keeps from grains and wetting sides
   double contact_angle = 0;            ///< [rad]
   calibrated_pair pair = pair_18;
   double tau = 1;          ///< relaxation time of both fluids, that of the pair
@@ -95,7 +97,8 @@ struct entry_set_up {
 };
 
 /// Whether a set-up is the one that entry_correction and entry_error were measured with, but for throat, angle and
-/// resolution: the default model, pair, τ, retraction and reservoirs, fitted radii, no wetting sides.
+/// resolution: the default model, pair, τ, retraction and reservoirs, radii to be fitted, no wetting sides. That the
+/// radii could be fitted the lattice says (`throat_on_lattice::fitted`).
 template <class Model = mixture<d3q19, bgk>>
 [[nodiscard]] bool entry_calibrated(const entry_set_up& s) noexcept {
   const entry_set_up usual{};
@@ -116,26 +119,45 @@ struct plane_entry {
   double best;       ///< p/σ, the least over all choices of gaps that the gas may cross
 };
 
+/// The section of a throat in the plane of the centres: a line from centre to centre for each wetting side.
+/// \param open  bit k: gas may cross the gap after disc k, whose side is a mirror
+[[nodiscard]] inline opening<double> section_of(const opening<double>& discs, const std::array<prism_side, 3>& sides,
+                                                unsigned open) noexcept {
+  opening<double> o;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto& disc = discs.sides[k];
+    o.add_disc(disc.point, disc.radius, (open >> k & 1U) != 0 ? gap_state::open : discs.gaps[k]);
+    if (sides[k] == prism_side::wetting) {
+      const vec2<double> along = discs.sides[discs.next(k)].point - disc.point;
+      o.add_line(disc.point, vec2<double>{-along.y, along.x} * (1 / norm(along)));
+    }
+  }
+  return o;
+}
+
+/// A side of wetting liquid is a wall to the gas: an arc ends on it where the gap is too wide for one from grain to
+/// grain, and gas does not cross it. So no such side lowers the least value.
+/// \par Domain  wetting sides have the throat's contact angle here. On the lattice theirs is 0, which at θ > 0 holds
+///              the gas back more
 /// Throws parameter_error where no law covers the throat.
 [[nodiscard]] inline plane_entry plane_entry_of(const opening<double>& o, const std::array<prism_side, 3>& sides,
                                                 double contact_angle = 0) {
   const mayer_stowe_princen arcs{.surface_tension = 1.0, .contact_angle = contact_angle};
   const auto circle = inscribed_circle{.surface_tension = 1.0, .contact_angle = 0.0}.entry_pressure(o);
   const auto princen = arcs.entry_pressure(o);
-  auto best = princen;
+  const bool wetting = std::count(sides.begin(), sides.end(), prism_side::wetting) > 0;
+  auto best = wetting ? arcs.entry_pressure(section_of(o, sides, 0)) : princen;
   for (unsigned open = 1; open < 8; ++open) {
-    opening<double> trial = o;
     bool mirrors = true;
     for (std::size_t k = 0; k < 3; ++k) {
       if ((open >> k & 1U) != 0) {
-        trial.gaps[k] = gap_state::open;
         const auto d = o.sides[o.next(k)].point - o.sides[k].point;
         const double sum = o.sides[k].radius + o.sides[o.next(k)].radius;
         mirrors = mirrors && sides[k] == prism_side::mirror && dot(d, d) > sum * sum;
       }
     }
     if (mirrors) {
-      const auto answer = arcs.entry_pressure(trial);
+      const auto answer = arcs.entry_pressure(section_of(o, sides, open));
       if (answer.ok() && !(best.ok() && best.value <= answer.value)) {
         best = answer;
       }
@@ -182,6 +204,61 @@ struct entry_result {
              ///< 8.9 % there and more below; at 4 nodes (gaps of 0.6 R) it is 5 % and untested
 };
 
+namespace detail {
+
+[[nodiscard]] inline double largest_grain(const opening<double>& o) noexcept {
+  double largest = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    largest = std::max(largest, o.sides[k].radius);
+  }
+  return largest;
+}
+
+/// \param above  from the plane of the centres to a reservoir, and below [nodes]
+[[nodiscard]] inline throat_resolution resolution_of(const entry_set_up& s, double above, double below) noexcept {
+  throat_resolution r;
+  r.nodes_per_length = s.nodes_per_length;
+  r.retraction = s.retraction.value_or(entry_retraction(s.contact_angle));
+  r.above = above;
+  r.below = below;
+  r.plug = s.plug;
+  r.halved = s.halved;
+  r.fitted = s.fitted;
+  r.most_nodes = s.most_nodes;
+  return r;
+}
+
+/// The fluids of a throat between its walls and reservoirs. Throws parameter_error for a pair that is not as measured,
+/// and where grains and wetting sides leave a reservoir no node.
+template <std::floating_point T, class Model, storage Storage>
+[[nodiscard]] held_fluids<T, Model, Storage> fluids_of(const entry_set_up& s, const throat_on_lattice& t) {
+  check_pair<Model>(s.pair, s.tau);
+  for (const bool above : {false, true}) {
+    if (!t.has_reservoir(above)) {
+      throw parameter_error(
+          "throat", std::string("no node for the reservoir ") + (above ? "above" : "below"),
+          "some that are " + short_number(s.plug) + " nodes away from grains and wetting sides: a finer lattice");
+    }
+  }
+  held_fluids<T, Model, Storage> fluids({s.pair.attraction, s.pair.factor, s.pair.common, s.pair.main}, s.gas_share,
+                                        t.sites<typename Model::lattice_type>(), t.middle(), reservoir_above,
+                                        reservoir_below, s.tau);
+  constexpr auto forcing = kind_of_forcing<typename Model::forcing_type>;
+  fluids.set_wall(grain_wall, wall_densities(fluids.pair(), forcing, s.tau, s.contact_angle));
+  const auto wet = wall_densities(fluids.pair(), forcing, s.tau, 0);
+  fluids.set_wall(liquid_wall, wet);
+  fluids.set_wall(0, wet);  // a face of the box as a wetting side
+  return fluids;
+}
+
+/// Gas above a level, and a film of liquid on all walls.
+[[nodiscard]] inline double first_gas(const throat_on_lattice& t, const std::array<int, 3>& p, double level) noexcept {
+  constexpr double film = 2.5;  // nodes
+  return t.to_walls(p[0], p[1], p[2]) < film ? 0 : 0.5 * (1 + std::tanh((p[2] - level) / 1.5));
+}
+
+}  // namespace detail
+
 /// A throat in which p_c can be held.
 /// \par Units  lattice units: nodes, steps; positions of the apex are above the plane of the grains' centres
 /// \tparam T        float or double
@@ -198,21 +275,14 @@ class entry_experiment {
       : set_up_(s),
         plane_(plane_entry_of(s.throat, s.sides, s.contact_angle)),
         throat_(s.throat, s.sides, resolution()),
-        fluids_({s.pair.attraction, s.pair.factor, s.pair.common, s.pair.main}, s.gas_share,
-                throat_.template sites<d3q19>(), throat_.middle(), reservoir_above, reservoir_below, s.tau) {
+        fluids_(detail::fluids_of<T, Model, Storage>(s, throat_)) {
     if (!(s.rules.still > 0) || !(s.rules.still_mass > 0) || s.rules.most_steps < 1000 || !(s.patience > 0)) {
       throw parameter_error("hold", "no motion that counts as rest, or fewer than 1000 steps", "more");
     }
-    check_pair<Model>(s.pair, s.tau);
     if (!(inscribed() >= 2 * (1 - 1e-12))) {
       throw parameter_error("throat", "an inscribed circle of " + short_number(inscribed()) + " nodes",
                             "a radius of 2 or more: films and interfaces are as wide");
     }
-    constexpr auto forcing = kind_of_forcing<typename Model::forcing_type>;
-    fluids_.set_wall(grain_wall, wall_densities(fluids_.pair(), forcing, s.tau, s.contact_angle));
-    const auto wet = wall_densities(fluids_.pair(), forcing, s.tau, 0);
-    fluids_.set_wall(liquid_wall, wet);
-    fluids_.set_wall(0, wet);  // a face of the box as a wetting side
     find_axis();
     find_walls();
   }
@@ -235,14 +305,13 @@ class entry_experiment {
     return set_up_.retraction.value_or(entry_retraction(set_up_.contact_angle));
   }
   /// By what the middle of a bracket is multiplied: 1 where nothing is calibrated.
-  [[nodiscard]] double correction() const noexcept {
-    return covered() ? entry_correction(inscribed(), set_up_.contact_angle) : 1;
-  }
+  [[nodiscard]] double correction() const noexcept { return covered() ? expected() : 1; }
 
   /// A bracket as narrow as asked where the entry pressure is expected, `factor` × the least plane value less the
-  /// correction: the search widens it where it is not there.
+  /// correction (that of mirrors where sides wet, that of fitted radii where they cannot be fitted): the search widens
+  /// it where it is not there.
   [[nodiscard]] search_options bracket(double factor = 1, double width = 0.03) const noexcept {
-    const double p = factor * lattice_pressure(plane_.best) / correction();
+    const double p = factor * lattice_pressure(plane_.best) / expected();
     return {.lower = (1 - 0.499 * width) * p, .upper = (1 + 0.499 * width) * p, .width = width, .widen = 1 + width};
   }
 
@@ -263,9 +332,7 @@ class entry_experiment {
     }
     if (!fluids_.started()) {
       const double level = throat_.middle() + inscribed();
-      fluids_.start(capillary, [&](const std::array<int, 3>& p) {
-        return throat_.to_grains(p[0], p[1], p[2]) < first_film ? 0 : 0.5 * (1 + std::tanh((p[2] - level) / 1.5));
-      });
+      fluids_.start(capillary, [&](const std::array<int, 3>& p) { return detail::first_gas(throat_, p, level); });
     }
     fluids_.ramp(capillary, set_up_.rules.ramp, r);
     const double passed = -2 * inscribed();
@@ -320,25 +387,12 @@ class entry_experiment {
   }
 
  private:
-  static constexpr double first_film = 2.5;  ///< nodes of liquid on the grains in the first state
-
   [[nodiscard]] throat_resolution resolution() const noexcept {
-    double largest = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      largest = std::max(largest, set_up_.throat.sides[k].radius);
-    }
+    const double largest = detail::largest_grain(set_up_.throat);
     // the gap between grains has doubled √(2 R r_in) above the centres
     const double above = std::min(set_up_.clear * largest, 1.25 * std::sqrt(2 * largest * plane_.inscribed));
-    throat_resolution r;
-    r.nodes_per_length = set_up_.nodes_per_length;
-    r.retraction = retraction();
-    r.above = std::max(above * set_up_.nodes_per_length, inscribed() + 6);
-    r.below = 2.2 * inscribed() + 5;
-    r.plug = set_up_.plug;
-    r.halved = set_up_.halved;
-    r.fitted = set_up_.fitted;
-    r.most_nodes = set_up_.most_nodes;
-    return r;
+    return detail::resolution_of(set_up_, std::max(above * set_up_.nodes_per_length, inscribed() + 6),
+                                 2.2 * inscribed() + 5);
   }
 
   [[nodiscard]] film_status film_of(const threshold_search::memory& m) const noexcept {
@@ -351,9 +405,16 @@ class entry_experiment {
                                     : film_status::resolved;
   }
 
-  [[nodiscard]] bool covered() const noexcept { return entry_calibrated<Model>(set_up_); }
+  [[nodiscard]] bool covered() const noexcept { return entry_calibrated<Model>(set_up_) && throat_.fitted(); }
 
-  /// The column of nodes that is furthest from the grains.
+  /// The correction were the sides mirrors and the radii fitted.
+  [[nodiscard]] double expected() const noexcept {
+    entry_set_up usual = set_up_;
+    usual.sides = {};
+    return entry_calibrated<Model>(usual) ? entry_correction(inscribed(), set_up_.contact_angle) : 1;
+  }
+
+  /// The column of nodes that is furthest from grains and wetting sides.
   void find_axis() {
     const auto& map = fluids_.sites();
     const int z = static_cast<int>(throat_.middle());
@@ -361,7 +422,7 @@ class entry_experiment {
     std::array<int, 3> best{};
     for (std::size_t n = 0; n < map.size(); ++n) {
       const auto& p = map.place(n);
-      if (const double room = throat_.to_grains(p[0], p[1], z); p[2] == z && room > most) {
+      if (const double room = throat_.to_walls(p[0], p[1], z); p[2] == z && room > most) {
         most = room;
         best = p;
       }

@@ -49,7 +49,7 @@ template <class Model>
   const flat_interface f = measure_flat_interface<plane>({.attraction = attraction, .tau = tau, .main = main});
   const auto known = detail::row_of<Model>(attraction, tau, f.main);
   const double tension = known.ok() ? surface_tension(known.value, f.main) : f.tension;
-  return {{attraction, f.main, f.factor, (f.factor - 1) / 2, tension, f.tension, 0}, f.rest.end};
+  return {{attraction, f.main, f.factor, (f.factor - 1) / 2, tension}, f.rest.end};
 }
 
 /// Throws parameter_error where factor or tension of a pair differ by 2 % from what was measured: in the table of

@@ -27,8 +27,7 @@ class simulation<Model, T, storage::moments, Lanes> : public detail::surrounding
   static_assert(
       requires { requires Model::collision_type::equilibrium_at_one; } && !Model::forcing_type::carries_source,
       "storage::moments takes bgk or regularised with tau = 1 and velocity_shift: other nodes send more than density "
-      "and "
-      "momentum tell");
+      "and momentum tell");
   using base = detail::surroundings<Model, T, Lanes, false>;
 
  public:

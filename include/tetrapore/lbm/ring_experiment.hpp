@@ -27,7 +27,8 @@ struct ring_report {
   double suction;  ///< pressure of the gas less that where the ring has most liquid
   double law_neck;
   double law_suction;
-  bridge_status law;  ///< why the law says so; `no_liquid` where there is no ring
+  bridge_status law;  ///< why the law says so; `no_liquid` where there is no ring, `not_covered` beside a wetting side,
+                      ///< whose liquid is none: it is not looked at
 };
 
 /// A throat deep enough to be drained.
@@ -44,15 +45,7 @@ class ring_experiment {
   explicit ring_experiment(const entry_set_up& s, double depth = 0.8)
       : set_up_(s),
         throat_(s.throat, s.sides, resolution(depth)),
-        fluids_({s.pair.attraction, s.pair.factor, s.pair.common, s.pair.main}, s.gas_share,
-                throat_.template sites<d3q19>(), throat_.middle(), reservoir_above, reservoir_below, s.tau) {
-    check_pair<Model>(s.pair, s.tau);
-    constexpr auto forcing = kind_of_forcing<typename Model::forcing_type>;
-    fluids_.set_wall(grain_wall, wall_densities(fluids_.pair(), forcing, s.tau, s.contact_angle));
-    const auto wet = wall_densities(fluids_.pair(), forcing, s.tau, 0);
-    fluids_.set_wall(liquid_wall, wet);
-    fluids_.set_wall(0, wet);
-  }
+        fluids_(detail::fluids_of<T, Model, Storage>(s, throat_)) {}
 
   [[nodiscard]] const entry_set_up& set_up() const noexcept { return set_up_; }
   [[nodiscard]] const throat_on_lattice& throat() const noexcept { return throat_; }
@@ -71,9 +64,7 @@ class ring_experiment {
       return r;
     }
     const double level = throat_.middle() + 0.3 * (throat_.box().size[2] - throat_.middle());
-    fluids_.start(capillary, [&](const std::array<int, 3>& p) {
-      return throat_.to_grains(p[0], p[1], p[2]) < 2.5 ? 0 : 0.5 * (1 + std::tanh((p[2] - level) / 1.5));
-    });
+    fluids_.start(capillary, [&](const std::array<int, 3>& p) { return detail::first_gas(throat_, p, level); });
     const double bottom = 4 - throat_.middle();
     hold_rules rules = set_up_.rules;
     rules.foresee = false;
@@ -149,19 +140,8 @@ class ring_experiment {
 
  private:
   [[nodiscard]] throat_resolution resolution(double depth) const noexcept {
-    double largest = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      largest = std::max(largest, set_up_.throat.sides[k].radius);
-    }
-    throat_resolution r;
-    r.nodes_per_length = set_up_.nodes_per_length;
-    r.retraction = set_up_.retraction.value_or(entry_retraction(set_up_.contact_angle));
-    r.above = r.below = depth * largest * set_up_.nodes_per_length;
-    r.plug = set_up_.plug;
-    r.halved = set_up_.halved;
-    r.fitted = set_up_.fitted;
-    r.most_nodes = set_up_.most_nodes;
-    return r;
+    const double both = depth * detail::largest_grain(set_up_.throat) * set_up_.nodes_per_length;
+    return detail::resolution_of(set_up_, both, both);
   }
   [[nodiscard]] bool is_fluid(const std::array<int, 3>& p) const noexcept {
     const site_kind kind = throat_.at(p[0], p[1], p[2]).kind;
@@ -184,6 +164,10 @@ class ring_experiment {
     const vec2<double> contact = a.centre + along * (a.radius + gap / 2);
 
     ring_report r{k, gap / unit, 0, 0, 0, 0, 0, bridge_status::no_liquid};
+    if (set_up_.sides[k] == prism_side::wetting) {
+      r.law = bridge_status::not_covered;
+      return r;
+    }
     // the waist, straight up from the contact
     const double top = throat_.box().size[2] - 1 - throat_.middle();
     double below = difference_at({contact.x, contact.y, throat_.middle() + 1});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "tetrapore/lbm/storage.hpp"
 #include "tetrapore/lbm/surroundings.hpp"
 
 #include <algorithm>

@@ -88,10 +88,8 @@ class site_map {
     const auto volume = count(0) * count(1) * count(2);
     what_.resize(volume);
     index_.assign(volume, none);
-    planes_.reserve(count(0) + 1);
     std::size_t cell = 0;
     for (int x = 0; x < box.size[0]; ++x) {
-      planes_.push_back(static_cast<std::int32_t>(places_.size()));
       for (int y = 0; y < box.size[1]; ++y) {
         for (int z = 0; z < box.size[2]; ++z, ++cell) {
           what_[cell] = kind(x, y, z);
@@ -102,7 +100,6 @@ class site_map {
         }
       }
     }
-    planes_.push_back(static_cast<std::int32_t>(places_.size()));
     if (places_.empty()) {
       throw parameter_error("lattice", "no fluid node", "at least one");
     }
@@ -111,8 +108,7 @@ class site_map {
 
   [[nodiscard]] const lattice_box& box() const noexcept { return box_; }
   [[nodiscard]] std::size_t size() const noexcept { return places_.size(); }
-  [[nodiscard]] std::size_t plane_count() const noexcept { return planes_.size() - 1; }
-  [[nodiscard]] std::int32_t plane_begin(std::size_t x) const noexcept { return planes_[x]; }
+  [[nodiscard]] std::size_t plane_count() const noexcept { return count(0); }
   [[nodiscard]] const std::array<int, 3>& place(std::size_t node) const noexcept { return places_[node]; }
   [[nodiscard]] site at(std::size_t node) const noexcept { return what_[cell_of(places_[node])]; }
 
@@ -124,11 +120,6 @@ class site_map {
     const beyond b = look(node, k);
     return b.node == none ? link{static_cast<std::int32_t>(node), static_cast<std::uint8_t>(opposite(k))}
                           : link{b.node, static_cast<std::uint8_t>(b.as)};
-  }
-  /// Where what arrives at a node in direction i has come from: the node, and in which direction it left.
-  [[nodiscard]] link arriving(std::size_t node, int i) const noexcept {
-    const link l = leaving(node, opposite(i));
-    return {l.to, static_cast<std::uint8_t>(opposite(l.as))};
   }
 
   /// What a node sees in direction k: a node, an image, or the tag of a wall.
@@ -270,7 +261,6 @@ class site_map {
   std::vector<site> what_;
   std::vector<std::int32_t> index_;
   std::vector<std::array<int, 3>> places_;
-  std::vector<std::int32_t> planes_;
   std::vector<image_of_nodes> images_;
 };
 

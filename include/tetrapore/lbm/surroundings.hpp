@@ -277,12 +277,5 @@ class surroundings {
 
 }  // namespace detail
 
-/// How a simulation keeps its nodes.
-enum class storage {
-  in_place,      ///< populations once: even steps turn them round at their node, odd ones exchange them with neighbours
-  two_lattices,  ///< populations twice: from one into the other. The plain reference
-  moments        ///< density and momentum alone, where a collision leaves nothing else (tetrapore/lbm/moments.hpp)
-};
-
 }  // namespace lbm
 }  // namespace tetrapore::inline TETRAPORE_ABI

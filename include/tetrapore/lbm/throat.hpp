@@ -39,9 +39,10 @@ struct throat_resolution {
   double retraction = 0;        ///< by how much each grain's radius is reduced: room for the film on it
   double above = 0;             ///< from the plane of the centres up to the reservoir
   double below = 0;
-  double plug = 0;                   ///< reservoirs keep as far from the grains: films end at a mirror there
+  double plug = 0;                   ///< reservoirs keep as far from grains and wetting sides: films end at a mirror
   bool halved = false;               ///< a throat that is its own mirror image is solved by one half
-  bool fitted = false;               ///< radii shift so that the neck has as many nodes as it has volume
+  bool fitted = false;               ///< radii shift so that the neck has as many nodes as it has volume, where it
+                                     ///< can be told (`throat_on_lattice::fitted`)
   std::size_t most_nodes = 1000000;  ///< fluid nodes that are allowed
 };
 
@@ -112,9 +113,7 @@ class throat_on_lattice {
     box_.low = {face_kind::wall, sides_[0] == prism_side::mirror ? face_kind::mirror : face_kind::wall,
                 face_kind::mirror};
     box_.high = {half_ ? face_kind::mirror : face_kind::wall, face_kind::wall, face_kind::mirror};
-    if (r.fitted) {
-      fit();
-    }
+    fitted_ = r.fitted && fit();
     if (const std::size_t fluid = fluid_nodes(); fluid > r.most_nodes) {
       too_many(static_cast<double>(fluid), r.most_nodes);
     }
@@ -133,6 +132,9 @@ class throat_on_lattice {
 
   /// The throat is solved by one half, cut along its own mirror.
   [[nodiscard]] bool halved() const noexcept { return half_; }
+  /// The neck has as many nodes as it has volume: it was asked for, and no grain reaches through the side opposite to
+  /// it, where a grain's share of the volume would be no sector.
+  [[nodiscard]] bool fitted() const noexcept { return fitted_; }
 
   [[nodiscard]] site at(int x, int y, int z) const noexcept {
     const vec2<double> p{static_cast<double>(x), static_cast<double>(y)};
@@ -145,10 +147,23 @@ class throat_on_lattice {
         return sides_[k] == prism_side::mirror ? site{site_kind::image, 0} : site{site_kind::solid, liquid_wall};
       }
     }
-    if ((z == 0 || z + 1 == box_.size[2]) && !(room < resolution_.plug)) {
+    if ((z == 0 || z + 1 == box_.size[2]) && !(to_walls(x, y, z) < resolution_.plug)) {
       return {site_kind::reservoir, z == 0 ? reservoir_below : reservoir_above};
     }
     return {};
+  }
+
+  /// Some node belongs to the reservoir.
+  [[nodiscard]] bool has_reservoir(bool above) const noexcept {
+    const int z = above ? box_.size[2] - 1 : 0;
+    for (int x = 0; x < box_.size[0]; ++x) {
+      for (int y = 0; y < box_.size[1]; ++y) {
+        if (at(x, y, z).kind == site_kind::reservoir) {
+          return true;
+        }
+      }
+    }
+    return false;
   }
 
   /// A grain as it was given, on the lattice.
@@ -176,6 +191,17 @@ class throat_on_lattice {
       const vec2<double> d = vec2<double>{static_cast<double>(x), static_cast<double>(y)} - g.centre;
       const double up = z - middle_;
       least = std::min(least, std::sqrt(dot(d, d) + up * up) - g.radius);
+    }
+    return least;
+  }
+  /// How far a node inside the prism lies from the nearest grain or wetting side, negative inside a grain. A side is a
+  /// plane, wherever the mirrors beside it end it. \par Units  nodes
+  [[nodiscard]] double to_walls(int x, int y, int z) const noexcept {
+    double least = to_grains(x, y, z);
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (sides_[k] == prism_side::wetting) {
+        least = std::min(least, -outside({static_cast<double>(x), static_cast<double>(y)}, k));
+      }
     }
     return least;
   }
@@ -266,8 +292,9 @@ class throat_on_lattice {
   }
 
   /// All radii shift by the same fraction of a node, at most a half, until the layers next to the plane of the centres
-  /// hold as many nodes as the throat has volume there. Without it p_c has steps of 2 % at r_in of 4 nodes.
-  void fit() noexcept {
+  /// hold as many nodes as the throat has volume there. Without it p_c has steps of 2 % at r_in of 4 nodes. False, and
+  /// nothing is done, where a grain reaches through the side opposite to it.
+  [[nodiscard]] bool fit() noexcept {
     double smallest = grains_[0].radius;
     double area = 0;
     std::array<double, 3> angle{};
@@ -278,7 +305,7 @@ class throat_on_lattice {
       area = cross(a, b) / 2;
       angle[k] = std::atan2(cross(a, b), dot(a, b));
       if (!(cross(a, b) > grains_[k].radius * norm(b - a))) {
-        return;  // a grain that reaches through the side opposite to it: its section is no sector
+        return false;  // its section is no sector
       }
     }
     const int layers = std::max(1, static_cast<int>(0.3 * smallest));
@@ -314,6 +341,7 @@ class throat_on_lattice {
     for (grain_section& g : grains_) {
       g.radius += (low + high) / 2;
     }
+    return true;
   }
 
   [[nodiscard]] std::size_t fluid_nodes() const noexcept {
@@ -337,6 +365,7 @@ class throat_on_lattice {
   lattice_box box_;
   double middle_ = 0;
   bool half_ = false;
+  bool fitted_ = false;
   std::array<grain_section, 3> grains_;
   std::array<double, 3> given_{};  ///< radii before the retraction
   std::size_t first_side_ = 0;     ///< of the opening: that on the face y = 0

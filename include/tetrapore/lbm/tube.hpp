@@ -15,22 +15,19 @@
 #include <vector>
 
 /// \file
-/// The nodes of a straight tube whose section is a convex polygon, between a reservoir above and one below.
+/// The nodes of a straight tube whose section is a convex polygon, closed by a mirror at either end.
 
 namespace tetrapore::inline TETRAPORE_ABI {
 namespace lbm {
 
-/// Tags of a tube's walls and reservoirs.
+/// Tag of a tube's walls.
 inline constexpr std::uint8_t tube_wall = 1;
-inline constexpr std::uint8_t tube_below = 0;
-inline constexpr std::uint8_t tube_above = 1;
 
 /// How a tube is laid on a lattice. \par Units  nodes but where said
 struct tube_resolution {
   double nodes_per_length = 1;       ///< nodes per unit of length of the polygon
   double retraction = 0;             ///< by how much its walls are moved out: room for the film on them
   double length = 0;                 ///< of the tube
-  double plug = 0;                   ///< the upper reservoir keeps as far from the walls: films end at a mirror there
   std::size_t most_nodes = 1000000;  ///< fluid nodes that are allowed
 };
 
@@ -43,7 +40,8 @@ struct tube_resolution {
   return o;
 }
 
-/// A tube along z. A polygon that is its own mirror image in a line along x or y is cut there, a mirror in its place.
+/// A tube along z between mirrors. A polygon that is its own mirror image in a line along x or y is cut there, a mirror
+/// in its place.
 /// Nodes are taken from the middle outward until a section has as many as the retracted polygon has area.
 /// \par Domain  openings of three or more lines, counter-clockwise, around a bounded convex polygon
 class tube_on_lattice {
@@ -53,9 +51,9 @@ class tube_on_lattice {
     if (o.count < 3 || o.count > opening<double>::max_sides) {
       throw parameter_error("tube", std::to_string(o.count) + " sides", "3 to 8 lines");
     }
-    if (!(r.nodes_per_length > 0) || !(r.retraction >= 0) || !(r.length >= 4) || !(r.plug >= 0)) {
+    if (!(r.nodes_per_length > 0) || !(r.retraction >= 0) || !(r.length >= 4)) {
       throw parameter_error("tube", "a resolution of " + short_number(r.nodes_per_length) + " nodes",
-                            "nodes above 0, a length of 4 or more, a retraction and a plug of 0 or more");
+                            "nodes above 0, a length of 4 or more, a retraction of 0 or more");
     }
     for (std::size_t k = 0; k < count_; ++k) {
       const auto& side = o.sides[k];
@@ -71,23 +69,15 @@ class tube_on_lattice {
   }
 
   [[nodiscard]] const lattice_box& box() const noexcept { return box_; }
-  /// z half-way between the reservoirs.
-  [[nodiscard]] double middle() const noexcept { return (box_.size[2] - 1) / 2.0; }
 
   template <lattice L>
   [[nodiscard]] site_map<L> sites() const {
-    return site_map<L>(box_, [this](int x, int y, int z) { return at(x, y, z); });
+    return site_map<L>(box_, [this](int x, int y, int) { return at(x, y); });
   }
 
-  [[nodiscard]] site at(int x, int y, int z) const noexcept {
-    const double room = to_walls(x, y) + resolution_.retraction;
-    if (room < least_room_) {
-      return {site_kind::solid, tube_wall};
-    }
-    if (z == 0 || (z + 1 == box_.size[2] && !(room < resolution_.plug))) {
-      return {site_kind::reservoir, z == 0 ? tube_below : tube_above};
-    }
-    return {};
+  /// What stands at a node, at all heights the same.
+  [[nodiscard]] site at(int x, int y) const noexcept {
+    return to_walls(x, y) + resolution_.retraction < least_room_ ? site{site_kind::solid, tube_wall} : site{};
   }
 
   /// By how much the walls are moved out in truth: the polygon has then the area of the nodes. \par Units  nodes

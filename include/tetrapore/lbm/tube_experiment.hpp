@@ -87,10 +87,7 @@ template <std::floating_point T = float, class Model = mixture<d3q19, bgk>, stor
                                          .most_nodes = o.most_nodes});
   r.retraction = tube.retraction();
   const auto model = repelling_pair<Model>(o.mixture.attraction, o.mixture.tau);
-  simulation<Model, T, Storage> s(model, site_map<typename Model::lattice_type>(tube.box(), [&](int x, int y, int z) {
-                                    const site at = tube.at(x, y, z);
-                                    return at.kind == site_kind::solid ? at : site{};
-                                  }));
+  simulation<Model, T, Storage> s(model, tube.template sites<typename Model::lattice_type>());
   const auto& map = s.sites();
   r.nodes = map.size();
   const auto wall = wall_of_wettability(o.mixture.main, o.mixture.dissolved, wettability(o.mixture, o.contact_angle));

@@ -121,4 +121,5 @@ TEST_CASE("a hold at a pressure that no fluid bears says that a phase dissolves,
   const hold_report r = e.hold(1.0);
   CHECK(r.end == hold_end::dissolved);
   CHECK(r.steps == 0);
+  CHECK(std::isnan(r.measured));
 }

@@ -107,6 +107,19 @@ TEST_CASE("a search in which every hold creeps ends undecided") {
   CHECK(s.now().holds == 2);
 }
 
+TEST_CASE("what no hold has measured is no number") {
+  CHECK(std::isnan(hold_report{}.measured));
+  gate g{1};
+  g.failure = hold_end::drifting;
+  threshold_search s({});
+  run(g, s);
+  CHECK(std::isnan(s.now().measured_lower));
+  g.failure = hold_end::stable;
+  threshold_search found({});
+  run(g, found);
+  CHECK(found.now().measured_lower == 0.99 * found.now().lower);
+}
+
 TEST_CASE("a hold without an answer ends the search and is named") {
   for (const hold_end why : {hold_end::not_finite, hold_end::drifting}) {
     gate g{1};

@@ -122,6 +122,30 @@ TEST_CASE("a plug keeps the upper reservoir from the grains, with mirrors beside
   CHECK(t.box().high[2] == face_kind::mirror);
 }
 
+TEST_CASE("a reservoir keeps as far from a wetting side as from a grain, and may find no room") {
+  throat_resolution r = resolution();
+  r.plug = 3;
+  constexpr prism_side wetting = prism_side::wetting;
+  const throat_on_lattice t(between(1, 1, 1, 0.4), {wetting, prism_side::mirror, wetting}, r);
+  const int top = t.box().size[2] - 1;
+  std::size_t held = 0;
+  std::size_t beside = 0;
+  for (int x = 0; x < t.box().size[0]; ++x) {
+    for (int y = 0; y < t.box().size[1]; ++y) {
+      const site s = t.at(x, y, top);
+      held += s.kind == site_kind::reservoir ? 1U : 0U;
+      beside += s.kind == site_kind::fluid && t.to_grains(x, y, top) >= 3 ? 1U : 0U;
+      CHECK((s.kind != site_kind::reservoir || t.to_walls(x, y, top) >= 3));
+      CHECK((s.kind != site_kind::fluid || t.to_walls(x, y, top) < 3));
+    }
+  }
+  CHECK(held > 10);
+  CHECK(beside > 10);
+  CHECK(t.has_reservoir(true));
+  r.plug = 20;
+  CHECK_FALSE(throat_on_lattice(between(1, 1, 1, 0.4), {wetting, wetting, wetting}, r).has_reservoir(true));
+}
+
 TEST_CASE("a fitted neck has as many nodes as it has volume") {
   for (const double nodes : {9.3, 12.0, 14.7, 19.1}) {
     CAPTURE(nodes);
