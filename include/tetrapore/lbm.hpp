@@ -34,6 +34,7 @@
 #include "tetrapore/lbm/simulation.hpp"
 #include "tetrapore/lbm/sites.hpp"
 #include "tetrapore/lbm/state_numbers.hpp"
+#include "tetrapore/lbm/storage.hpp"
 #include "tetrapore/lbm/surroundings.hpp"
 #include "tetrapore/lbm/throat.hpp"
 #include "tetrapore/lbm/tube.hpp"
