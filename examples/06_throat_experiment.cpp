@@ -83,8 +83,10 @@ void leave_rings(const support::throat_job& job, double capillary) {
   std::printf("rings_end=%s\n", describe(r.end));
   key("rings_steps", static_cast<std::size_t>(r.steps));
   for (const lbm::ring_report& ring : experiment.rings(capillary)) {
-    const std::string name = "ring_" + std::to_string(ring.side + 1) + std::to_string((ring.side + 1) % 3 + 1);
-    std::printf("%s=%s\n", name.c_str(), describe(ring.law));
+    const std::size_t grain = (support::first_grain(job) + ring.side) % 3;
+    const std::string name = "ring_" + std::to_string(grain + 1) + std::to_string((grain + 1) % 3 + 1);
+    const bool wetting = job.sides[grain] == lbm::prism_side::wetting;
+    std::printf("%s=%s\n", name.c_str(), wetting ? "none: the liquid of a wetting side" : describe(ring.law));
     if (verdict_of(ring.law) == tp::verdict::ok) {
       key((name + "_volume").c_str(), ring.volume);
       key((name + "_neck").c_str(), ring.neck);

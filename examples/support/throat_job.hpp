@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -23,13 +24,14 @@ namespace support {
 
 struct throat_job {
   std::array<double, 3> radii{1, 1, 1};
-  std::array<double, 3> gaps{0, 0, 0};  ///< between surfaces: of grains 1 and 2, 2 and 3, 3 and 1
-  double contact_angle = 0;             ///< [degrees]
-  double resolution = 4;                ///< nodes per radius of the inscribed circle
-  std::optional<double> retraction;     ///< [nodes]; none: by the contact angle
-  double bracket = 0.03;                ///< width of the last bracket
-  std::size_t most_nodes = 1000000;     ///< fluid nodes that are allowed
-  bool rings = true;                    ///< go on until rings are left, and draw it
+  std::array<double, 3> gaps{0, 0, 0};                ///< between surfaces: of grains 1 and 2, 2 and 3, 3 and 1
+  std::array<tetrapore::lbm::prism_side, 3> sides{};  ///< behind the same pairs
+  double contact_angle = 0;                           ///< [degrees]
+  double resolution = 4;                              ///< nodes per radius of the inscribed circle
+  std::optional<double> retraction;                   ///< [nodes]; none: by the contact angle
+  double bracket = 0.03;                              ///< width of the last bracket
+  std::size_t most_nodes = 1000000;                   ///< fluid nodes that are allowed
+  bool rings = true;                                  ///< go on until rings are left, and draw it
   bool in_double = false;
   std::filesystem::path out;
 };
@@ -46,10 +48,19 @@ struct throat_job {
   return o.value;
 }
 
+/// The grain of a job that the throat's first disc is, which is the smallest: disc k is grain first + k.
+[[nodiscard]] inline std::size_t first_grain(const throat_job& job) noexcept {
+  const auto& r = job.radii;
+  return static_cast<std::size_t>(std::min_element(r.begin(), r.end()) - r.begin());
+}
+
 /// The experiment of a job, its lattice as fine as the resolution asks.
 [[nodiscard]] inline tetrapore::lbm::entry_set_up set_up_of(const throat_job& job) {
   tetrapore::lbm::entry_set_up s;
   s.throat = throat_of(job);
+  for (std::size_t k = 0; k < 3; ++k) {
+    s.sides[k] = job.sides[(first_grain(job) + k) % 3];
+  }
   s.contact_angle = job.contact_angle * tetrapore::pi<double> / 180;
   s.retraction = job.retraction;
   s.most_nodes = job.most_nodes;
@@ -63,6 +74,7 @@ struct throat_job {
   throat_job job;
   std::vector<std::string> radii{"1", "1", "1"};
   std::vector<std::string> gaps{"0", "0", "0"};
+  std::vector<std::string> sides{"mirror", "mirror", "mirror"};
   std::string precision = "float";
   std::string retraction = "auto";
   std::string out = "throat_experiment_out";
@@ -70,6 +82,9 @@ struct throat_job {
   CLI::App app("Entry pressure of a throat of three grains by a lattice Boltzmann experiment.", "throat_experiment");
   app.add_option("--radii", radii, "radii of the grains, in any unit")->expected(3)->capture_default_str();
   app.add_option("--gaps", gaps, "gaps between surfaces 1-2, 2-3, 3-1, in the unit of the radii")
+      ->expected(3)
+      ->capture_default_str();
+  app.add_option("--sides", sides, "what stands behind gaps 1-2, 2-3, 3-1: mirror, or wetting as a neighbour still wet")
       ->expected(3)
       ->capture_default_str();
   number_options numbers(app);
@@ -95,6 +110,9 @@ struct throat_job {
   for (std::size_t k = 0; k < 3; ++k) {
     job.radii[k] = number_of("--radii", radii[k], above_zero.accepts, above_zero.expected);
     job.gaps[k] = number_of("--gaps", gaps[k], zero_or_more.accepts, zero_or_more.expected);
+    job.sides[k] = choice_of("--sides", sides[k], {"mirror", "wetting"}) == "wetting"
+                       ? tetrapore::lbm::prism_side::wetting
+                       : tetrapore::lbm::prism_side::mirror;
   }
   if (retraction != "auto") {
     job.retraction = number_of(

@@ -34,6 +34,15 @@ expect discretisation "< 0.0889"
 bracket=$(value bracket)
 steps=$(value steps)
 
+wet="--gaps 0.4 0.4 0.4 --resolution 2 --bracket 0.05 --no-rings --sides mirror wetting mirror"
+whole $wet
+runs "gas that may not cross one gap" $wet
+expect best2d_ratio_msp "> 0.83"  # 0.768 between mirrors
+expect best2d_ratio_msp "< 0.84"
+expect entry_ratio_best2d "> 0.72"  # 0.724 to 0.745 between mirrors
+expect entry_ratio_best2d "< 0.8"
+[ "$(value correction) $(value discretisation)" = "1 nan" ] || fail "$title: a correction nobody has calibrated"
+
 every_line=$keys
 keys="$keys rings_end rings_steps"
 for side in 12 23 31; do
@@ -79,10 +88,13 @@ title="no state"
 echo "nothing" >out/state.bin
 exits 2 "out/state.bin: found 8 bytes" $coarse --out out
 
-helps --radii --gaps --contact-angle --resolution --retraction --bracket --most-nodes --no-rings --precision --out
+helps --radii --gaps --sides --contact-angle --resolution --retraction --bracket --most-nodes --no-rings --precision --out
 refuses "two radii" "--radii" --radii 1 1
 refuses "radius" "--radii: found \"0\", expected a number above 0" --radii 1 0 1
 refuses "gap" "--gaps: found \"-1\"" --gaps 0 0 -1
+refuses "side" "--sides: found \"dry\", expected one of mirror, wetting" --sides mirror dry mirror
+refuses "two sides" "--sides" --sides mirror wetting
+refuses "no room" "no node for the reservoir" --gaps 0.4 0.4 0.4 --resolution 2 --sides wetting wetting wetting
 refuses "angle" "--contact-angle: found \"90\"" --contact-angle 90
 refuses "too coarse" "--resolution: found \"1\"" --resolution 1
 refuses "too many nodes" "at most 1000 fluid nodes: a coarser resolution or a higher limit" --most-nodes 1000
