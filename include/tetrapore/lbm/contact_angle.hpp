@@ -40,6 +40,12 @@ struct contact_result {
   rest_report rest;
 };
 
+/// The angle [rad]; the error of the lattice is taken to be what two rows more or less make.
+[[nodiscard]] inline measurement measured(const contact_result& r) noexcept {
+  return at_rest(r.angle, r.rest, r.angle > 0 ? std::abs(r.by_rows) / r.angle : quiet_nan<double>);
+}
+static_assert(experiment_result<contact_result>);
+
 namespace detail {
 
 struct arc {

@@ -39,6 +39,12 @@ struct drop_result {
   rest_report rest;
 };
 
+/// The angle [rad]; of drops the error of a lattice was not measured (docs/lattice_calibration.md has what they show).
+[[nodiscard]] inline measurement measured(const drop_result& r) noexcept {
+  return at_rest(r.angle, r.rest, quiet_nan<double>);
+}
+static_assert(experiment_result<drop_result>);
+
 /// Lets a drop come to rest and fits a sphere to the areas of its sections. Its mean main density is that of the
 /// mixture to 0.3 %, or the end is `missed`.
 /// \par Units   lattice units

@@ -7,6 +7,7 @@
 #include "tetrapore/lbm/calibration.hpp"
 #include "tetrapore/lbm/held_fluids.hpp"
 #include "tetrapore/lbm/measured_pair.hpp"
+#include "tetrapore/lbm/measurement.hpp"
 #include "tetrapore/lbm/throat.hpp"
 
 #include <algorithm>
@@ -43,22 +44,22 @@ inline constexpr calibrated_pair pair_18{1.8, 1.003, 1.99526, 0.5, 0.0877};
 /// \par Units     θ [rad]
 /// \par Domain    grains retracted as entry_retraction says, the pair of G = 1.8; r_in from 2 nodes
 /// \par Accuracy  see entry_error. Calibrated on three equal spheres against their Surface Evolver values: θ = 0 on
-///                touching ones at r_in = 2.5 to 8.5 nodes, above 0 on touching ones and gaps of 0.4 R at θ = 40° and
-///                r_in = 2 to 6
+///                touching ones at r_in = 2.5 to 8.5 nodes, above 0 on touching ones and gaps of 0.4 R at θ = 20
+///                and 40° and r_in = 2 to 6
 [[nodiscard]] constexpr double entry_correction(double inscribed, double contact_angle = 0) noexcept {
   if (contact_angle == 0) {
     return 1 + (0.12 + 0.6 / inscribed) / inscribed;
   }
-  return entry_angle_measured(contact_angle) ? 1 + (-0.15 + 0.85 / inscribed) / inscribed : 1;
+  return entry_angle_measured(contact_angle) ? 1 + (-0.25 + 1.03 / inscribed) / inscribed : 1;
 }
 
 /// What is left of the error behind correction and retraction, relative: the largest over throats that they were not
 /// calibrated on, against Surface Evolver or, unequal grains, the least plane value.
 /// \par Units     θ [rad]
 /// \par Accuracy  θ = 0 (gaps 0.2 and 0.4 R, unequal grains): largest found 4 % from r_in = 4 to 8.5 nodes, 5.3 % at 3,
-///                14 % at 2 to 2.5. θ = 10 to 40° (equal spheres, docs/campaigns/throat_angles.json): 5.2 % from
-///                r_in = 4 to 6, 5.1 % at 2 and 3. θ = 60°: 8.0 % and 5.6 %, and brackets that begin elsewhere differ
-///                by 4 %. A bracket's half width comes on top. NaN at angles that were not measured: between 0 and 10°
+///                14 % at 2 to 2.5. θ = 10 to 40° (equal spheres, docs/campaigns/throat_angles.json): 4.1 % from
+///                r_in = 4 to 6, those it was calibrated on included, 6 % at 2 and 3. θ = 60°: 10.6 % at 4, 6.2 % at 5
+///                nodes. A bracket's half width comes on top. NaN at angles that were not measured: between 0 and 10°
 ///                and above 60°
 [[nodiscard]] constexpr double entry_error(double inscribed, double contact_angle = 0) noexcept {
   constexpr double fine = 4;  // nodes
@@ -66,7 +67,7 @@ inline constexpr calibrated_pair pair_18{1.8, 1.003, 1.99526, 0.5, 0.0877};
     return inscribed < fine ? 0.05 * fine * fine / (inscribed * inscribed) : 0.05;
   }
   constexpr double large_angle = 45 * pi<double> / 180;
-  const double coarse = inscribed < fine * (1 - 1e-9) ? 0.09 : 0.06;
+  const double coarse = inscribed < fine * (1 - 1e-9) ? 0.09 : 0.05;
   return !entry_angle_measured(contact_angle) ? quiet_nan<double> : contact_angle > large_angle ? 0.12 : coarse;
 }
 
@@ -203,6 +204,13 @@ struct entry_result {
       film;  ///< in the last stable hold. Where unresolved `discretisation` covers what was found up to r_in = 3,
              ///< 8.9 % there and more below; at 4 nodes (gaps of 0.6 R) it is 5 % and untested
 };
+
+/// The entry pressure; the bracket is corrected as the value is.
+[[nodiscard]] inline measurement measured(const entry_result& r) noexcept {
+  return {r.value,   r.correction * r.lower, r.correction * r.upper, r.discretisation,
+          r.updates, verdict_of(r.end),      describe(r.end)};
+}
+static_assert(experiment_result<entry_result>);
 
 namespace detail {
 

@@ -35,6 +35,10 @@ struct flat_interface {
   rest_report rest;      ///< of all turns; `change` and `end` of the last
 };
 
+/// σ, of the lattice itself: no error of discretisation, by definition.
+[[nodiscard]] inline measurement measured(const flat_interface& f) noexcept { return at_rest(f.tension, f.rest, 0); }
+static_assert(experiment_result<flat_interface>);
+
 namespace detail {
 
 /// Where a falling profile passes a level, between the middles of nodes; −1 where it does not.

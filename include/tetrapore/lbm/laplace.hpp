@@ -44,6 +44,12 @@ struct laplace_result {
   rest_report rest;
 };
 
+/// σ; the error of the lattice is taken to be that of the roundest place.
+[[nodiscard]] inline measurement measured(const laplace_result& r) noexcept {
+  return at_rest(r.tension, r.rest, std::abs(r.out_of_round));
+}
+static_assert(experiment_result<laplace_result>);
+
 namespace detail {
 
 /// Half-level radius of component 0 on the ray from the middle along (1, 1, 1) or an axis.

@@ -6,6 +6,7 @@
 #include "tetrapore/geometry/primitives.hpp"
 #include "tetrapore/lbm/curved_walls.hpp"
 #include "tetrapore/lbm/kept_waits.hpp"
+#include "tetrapore/lbm/measurement.hpp"
 #include "tetrapore/lbm/simulation.hpp"
 
 #include <algorithm>
@@ -68,6 +69,7 @@ struct lattice_permeability {
   std::size_t half_way_links;  ///< those whose wall is taken half-way, for want of a node on their other side
   std::size_t steps;
   std::size_t taken_up;  ///< of the steps: made by runs before this one
+  double change;         ///< of the flux, relative, when it was looked at last
 
   [[nodiscard]] std::size_t updates() const noexcept { return fluid_nodes * steps; }
 };
@@ -85,6 +87,19 @@ struct permeability_limit {
   const double limit = (ratio * ratio * fine.permeability - coarse.permeability) / (ratio * ratio - 1);
   return {limit, std::abs(fine.permeability / limit - 1)};
 }
+
+/// Of one lattice the error is not known: two of them tell (`extrapolated`).
+[[nodiscard]] inline measurement measured(const outcome<lattice_permeability, flow_status>& o) noexcept {
+  const lattice_permeability& r = o.value;
+  return {r.permeability,
+          r.permeability * (1 - r.change),
+          r.permeability * (1 + r.change),
+          quiet_nan<double>,
+          r.updates(),
+          verdict_of(o.reason),
+          describe(o.reason)};
+}
+static_assert(experiment_result<outcome<lattice_permeability, flow_status>>);
 
 namespace detail {
 
@@ -262,6 +277,7 @@ template <lattice L = d3q19, std::floating_point T = double>
   struct {
     double gravity = 0;
     double flux = 0;
+    double change = quiet_nan<double>;
     std::size_t steps = 0;
     bool paced = false;
     bool steady = false;
@@ -291,7 +307,8 @@ template <lattice L = d3q19, std::floating_point T = double>
                          cuts.size(),
                          cuts.size() - walls.size(),
                          0,
-                         0};
+                         0,
+                         quiet_nan<double>};
   const auto pace = static_cast<std::size_t>(100 / model.viscosity(0)) + 1;
   // as fast as inertia allows, so that rounding matters least: Re < 0.05 across the box, far below the speed of sound
   const double wanted = std::min(5e-4, 0.05 * model.viscosity(0) / width);
@@ -320,7 +337,8 @@ template <lattice L = d3q19, std::floating_point T = double>
       pull(now.gravity * (wanted / std::max(std::abs(flux), 1e-3 * wanted)));
       now.paced = true;
     } else {
-      now.steady = std::abs(flux - now.flux) < how.steady * std::abs(flux);
+      now.change = std::abs(flux / now.flux - 1);
+      now.steady = now.change < how.steady;
       now.flux = flux;
     }
     if (now.steady || now.steps % 2 == 0) {
@@ -328,6 +346,7 @@ template <lattice L = d3q19, std::floating_point T = double>
     }
   }
   r.steps = now.steps;
+  r.change = now.change;
   if (!now.steady) {
     return {r, flow_status::still_changing};
   }

@@ -3,6 +3,7 @@
 
 #include "tetrapore/lbm/coexistence.hpp"
 #include "tetrapore/lbm/experiment.hpp"
+#include "tetrapore/lbm/measurement.hpp"
 #include "tetrapore/lbm/kept_waits.hpp"
 #include "tetrapore/lbm/simulation.hpp"
 
@@ -76,6 +77,13 @@ rest_report rest(Simulation& s, const rest_options& o, Look look) {
     kept.save(now);
   }
   return r;
+}
+
+/// What was waited for, in the form of all experiments: a value at rest, or none.
+[[nodiscard]] inline measurement at_rest(double value, const rest_report& r, double discretisation) noexcept {
+  const bool rests = r.end == hold_end::stable || r.end == hold_end::missed;
+  const double at = rests ? value : quiet_nan<double>;
+  return {at, at * (1 - r.change), at * (1 + r.change), discretisation, r.updates, verdict_of(r.end), describe(r.end)};
 }
 
 /// Two components with ψ = ρ or another potential that repel each other with the strength G and relax with τ.

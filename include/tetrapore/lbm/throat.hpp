@@ -248,8 +248,9 @@ class throat_on_lattice {
     return p;
   }
 
-  /// Bilinear in the plane, whose mirrors stand upright. A corner that is itself beyond a mirror is replaced by the
-  /// node next to its own mirrored point.
+  /// Bilinear in the plane, whose mirrors stand upright, of the corners that are not beyond a mirror themselves: what
+  /// would stand for such a corner lies to one side along the mirror, and pushes what sits there to the other. Without
+  /// any other corner the node next to the mirrored point.
   template <lattice L>
   [[nodiscard]] typename site_map<L>::image_point image(int x, int y, int z) const noexcept {
     typename site_map<L>::image_point of;
@@ -258,22 +259,31 @@ class throat_on_lattice {
     const int front = static_cast<int>(std::floor(p.y));
     const double right_share = p.x - left;
     const double back_share = p.y - front;
+    double whole = 0;
     for (int i = 0; i < 2; ++i) {
       for (int j = 0; j < 2; ++j) {
         const double weight = (i == 1 ? right_share : 1 - right_share) * (j == 1 ? back_share : 1 - back_share);
-        if (weight == 0) {
-          continue;
+        if (weight > 1e-9 && shows(left + i, front + j, z)) {
+          of.shares[of.count++] = {{left + i, front + j, z}, weight};
+          whole += weight;
         }
-        of.shares[of.count++] = {nearest(left + i, front + j, z), weight};
       }
+    }
+    if (of.count == 0) {
+      of.shares[of.count++] = {nearest(x, y, z), 1};
+      return of;
+    }
+    for (std::size_t k = 0; k < of.count; ++k) {
+      of.shares[k].weight /= whole;
     }
     return of;
   }
+  /// A place is in the box and not beyond a mirror.
+  [[nodiscard]] bool shows(int x, int y, int z) const noexcept {
+    return x >= 0 && x < box_.size[0] && y >= 0 && y < box_.size[1] && at(x, y, z).kind != site_kind::image;
+  }
   [[nodiscard]] std::array<int, 3> nearest(int x, int y, int z) const noexcept {
-    const auto fits = [&](int a, int b) {
-      return a >= 0 && a < box_.size[0] && b >= 0 && b < box_.size[1] && at(a, b, z).kind != site_kind::image;
-    };
-    if (fits(x, y)) {
+    if (shows(x, y, z)) {
       return {x, y, z};
     }
     const vec2<double> p = inside({static_cast<double>(x), static_cast<double>(y)});
@@ -282,7 +292,7 @@ class throat_on_lattice {
     for (int a = static_cast<int>(std::floor(p.x)) - 1; a <= static_cast<int>(std::floor(p.x)) + 2; ++a) {
       for (int b = static_cast<int>(std::floor(p.y)) - 1; b <= static_cast<int>(std::floor(p.y)) + 2; ++b) {
         const vec2<double> d{a - p.x, b - p.y};
-        if (fits(a, b) && (least < 0 || dot(d, d) < least)) {
+        if (shows(a, b, z) && (least < 0 || dot(d, d) < least)) {
           least = dot(d, d);
           best = {a, b, z};
         }

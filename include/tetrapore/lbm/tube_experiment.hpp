@@ -30,22 +30,34 @@ struct tube_set_up {
   double contact_angle = 0;            ///< [rad]
   calibrated_mixture mixture{};
   std::size_t most_nodes = 1000000;
+  double near =
+      0.01;  ///< share by which the main density may differ from that of the mixture; σ is that of the density found
   double patience = 6000;      ///< steps per node of the arcs' radius after which a tube that still moves is given up
   kept_waits* kept = nullptr;  ///< where to go on from, and where states are saved
 };
 
 /// What a tube shows. \par Units  1/length of the section but where said
 struct tube_result {
-  double pressure = 0;    ///< p/σ that the fluids show in the tube as it lies on the lattice
-  double entry = 0;       ///< the same for the section itself: its walls and films are not where they were expected
-  double law = 0;         ///< p/σ of Mayer, Stowe & Princen for the section
+  double pressure = 0;  ///< p/σ that the fluids show in the tube as it lies on the lattice
+  double entry =
+      0;           ///< the same for the section itself: its walls and films are not where they were expected; NaN where
+                   ///< the law does not cover the section that the fluids see
+  double law = 0;  ///< p/σ of Mayer, Stowe & Princen for the section
   double tension = 0;     ///< σ at these densities
   double shift = 0;       ///< nodes of film at what the fluids show
   double retraction = 0;  ///< nodes by which the walls lie further out
   double flow = 0;        ///< by how much the pressure of the liquid differs along its axis, relative to p: currents
+  double arc = 0;         ///< radius of the arcs by the law [nodes]
   std::size_t nodes = 0;
   rest_report rest;
 };
+
+/// The entry pressure p/σ of the section. The error is the largest that was found with arcs of 3 nodes or more, on the
+/// hexagon.
+[[nodiscard]] inline measurement measured(const tube_result& r) noexcept {
+  return at_rest(r.entry, r.rest, r.arc < 3 ? quiet_nan<double> : 0.08 / r.arc);
+}
+static_assert(experiment_result<tube_result>);
 
 /// Nodes that the film and the corners of a tube take from each of its walls, whatever its section: what plates show,
 /// and more where the arcs in the corners are hardly wider than an interface.
@@ -61,6 +73,7 @@ struct tube_result {
 /// else. Held at a pressure of one's choice it moves, but so it does while liquid still leaves the corners behind it or
 /// comes back to them: over 3 nodes in 10,000 steps at r_in = 9 nodes. In a closed tube whose gas is no longer than a
 /// few radii the corners come to rest with the meniscus.
+/// A tube that rests at another main density ends as `missed`.
 /// \par Domain    polygons that the law covers; arcs of 2.5 nodes and more; τ = 1 where `Storage` is moments
 /// \par Accuracy  docs/throat_experiment.md, "Tubes"
 /// \tparam T  float or double
@@ -80,6 +93,7 @@ template <std::floating_point T = float, class Model = mixture<d3q19, bgk>, stor
                               short_number(o.liquid) + " of liquid",
                           "at least 2.5 nodes, 2 and 1.5 radii");
   }
+  r.arc = arc;
   const double expected = o.contact_angle > 0 ? wall_shift : tube_shift(arc);
   const tube_on_lattice tube(o.section, {.nodes_per_length = o.nodes_per_length,
                                          .retraction = o.retraction.value_or(expected),
@@ -149,14 +163,13 @@ template <std::floating_point T = float, class Model = mixture<d3q19, bgk>, stor
     const double miss = o.mixture.main - (on_axis(tube.box().size[2] - 2)[0] + on_axis(1)[1]) / 2;
     laid.gas[0] += miss;
     laid.liquid[1] += miss;
+    if (std::abs(miss) > o.near * o.mixture.main) {
+      r.rest.end = hold_end::missed;
+    }
   }
   r.shift = o.contact_angle > 0 ? wall_shift : tube_shift(o.nodes_per_length / r.pressure);
   const auto laid_law = law.entry_pressure(moved_out(o.section, (r.retraction - r.shift) / o.nodes_per_length));
-  if (laid_law.ok()) {
-    r.entry = r.pressure * r.law / laid_law.value;
-  } else {
-    r.rest.end = hold_end::dissolved;
-  }
+  r.entry = laid_law.ok() ? r.pressure * r.law / laid_law.value : quiet_nan<double>;
   return r;
 }
 

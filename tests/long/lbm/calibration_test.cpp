@@ -159,7 +159,7 @@ TEST_CASE("bubbles and menisci at rest show the tensions and angles that are ask
     });
     CHECK(std::abs(flat.at(2) - t.width) < 0.06);
     CHECK(std::abs(b.at(5) - t.dissolved) < (t.attraction < 1.5 ? 3e-3 : 1.2e-3));
-    // figures of one or two digits: 9e-4 stands for 8.5e-4 to 9.5e-4, and 13 % at 1.4 and −12 % at 2.4 are beyond that; a
+    // figures of one or two digits: 9e-4 stands for 8.5e-4 to 9.5e-4; 13 % at 1.4 and −12 % at 2.4 are beyond that: a
     // bound that keeps them where they are
     CHECK(std::abs(b.at(6) / t.spurious - 1) < 0.15);
   }

@@ -23,20 +23,24 @@ struct spheres {
   double curvature;
   bool calibrating;
 };
-constexpr spheres throats[] = {{40, 0, 9.42, true},     {40, 0.4, 2.766, true},   {40, 0.2, 4.746, false},
-                               {40, 0.05, 7.89, false}, {10, 0.2, 5.765, false},  {20, 0, 10.9, false},
-                               {20, 0.2, 5.563, false}, {20, 0.4, 3.2335, false}, {60, 0, 7.28, false},
-                               {60, 0.05, 6.14, false}, {60, 0.2, 3.478, false}};
+constexpr spheres throats[] = {{40, 0, 9.42, true},     {40, 0.4, 2.766, true},  {40, 0.2, 4.746, false},
+                               {40, 0.05, 7.89, false}, {10, 0.2, 5.765, false}, {20, 0, 10.9, true},
+                               {20, 0.2, 5.563, false}, {20, 0.4, 3.2335, true}, {60, 0, 7.28, true},
+                               {60, 0.05, 6.14, false}, {60, 0.2, 3.478, true}};
 
-constexpr double width = 0.025;
+constexpr double width = 0.0125;
 
 campaigns::row row_of(const spheres& t, double inscribed) {
   entry_set_up s = equal_spheres(t.gap, inscribed);
   s.contact_angle = t.degrees * pi<double> / 180;
-  s.patience = 5000;
-  s.rules.most_steps = 40000;
+  s.patience = 8000;
+  s.rules.most_steps = 50000;
   entry_experiment<float> e(s);
-  threshold_search search(e.bracket(1, width));
+  search_options o = e.bracket(1, width);
+  const double expected = (o.lower + o.upper) / 2;
+  o.lower = 0.87 * expected;  // so that no middle of a bracket is what is expected
+  o.upper = 1.06 * expected;
+  threshold_search search(o);
   run(e, search);
   const entry_result r = e.result(search);
   campaigns::row row;
