@@ -107,6 +107,8 @@ TEST_CASE("simple cubic spheres resist as Zick and Homsy say") {
     const auto k = measure_permeability(p, 24, 0);
     REQUIRE(k.ok());
     CHECK(std::abs(k.value.permeability / exact - 1) < 0.01);
+    CHECK(measured(k).value == k.value.permeability);
+    CHECK(measured(k).upper - measured(k).lower < 1e-6 * k.value.permeability);
     CHECK(k.value.half_way_links < k.value.wall_links / 5);
     CHECK(std::abs(k.value.porosity - (1 - fraction)) < 0.01);
   }

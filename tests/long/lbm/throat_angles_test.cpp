@@ -25,8 +25,8 @@ struct spheres {
 };
 constexpr spheres throats[] = {{40, 0, 9.42, true},     {40, 0.4, 2.766, true},  {40, 0.2, 4.746, false},
                                {40, 0.05, 7.89, false}, {10, 0.2, 5.765, false}, {20, 0, 10.9, true},
-                               {20, 0.2, 5.563, false}, {20, 0.4, 3.2335, true}, {60, 0, 7.28, true},
-                               {60, 0.05, 6.14, false}, {60, 0.2, 3.478, true}};
+                               {20, 0.2, 5.563, false}, {20, 0.4, 3.2335, true}, {60, 0, 7.28, false},
+                               {60, 0.05, 6.14, false}, {60, 0.2, 3.478, false}};
 
 constexpr double width = 0.0125;
 

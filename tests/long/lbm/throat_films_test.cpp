@@ -24,11 +24,12 @@ struct grains {
   /// by a line in θ², from 20 and 40° (gap 0.4 R) or 10 and 20° (0.2 R), ± 0.002; touching: that of 20°, ± 0.018.
   double truth;
 };
-const grains throats[] = {{"touching", {1, 1, 1}, {0, 0, 0}, {4, 4.5, 5, 5.5, 6, 7, 8.5}, 1.00},
-                          {"gap 0.4 R", {1, 1, 1}, {0.4, 0.4, 0.4}, {4, 5, 6.5, 8.5}, 0.994},
-                          {"gap 0.2 R", {1, 1, 1}, {0.2, 0.2, 0.2}, {4, 5}, 0.974},
-                          {"1, 0.7, 0.5 touching", {1, 0.7, 0.5}, {0, 0, 0}, {4, 5}, 1.00},
-                          {"1, 0.8, 0.6, gaps 0.1, 0.2, 0.3", {1, 0.8, 0.6}, {0.1, 0.2, 0.3}, {4, 5}, 1.00}};
+const grains throats[] = {
+    {"touching", {1, 1, 1}, {0, 0, 0}, {2, 2.5, 3, 4, 4.5, 5, 5.5, 6, 7, 8.5}, 1.00},
+    {"gap 0.4 R", {1, 1, 1}, {0.4, 0.4, 0.4}, {2, 2.5, 3, 4, 5, 6.5, 8.5}, 0.994},
+    {"gap 0.2 R", {1, 1, 1}, {0.2, 0.2, 0.2}, {2.5, 3, 4, 5, 6.5}, 0.974},
+    {"1, 0.7, 0.5 touching", {1, 0.7, 0.5}, {0, 0, 0}, {2, 2.5, 3, 4, 5, 6.5}, 1.00},
+    {"1, 0.8, 0.6, gaps 0.1, 0.2, 0.3", {1, 0.8, 0.6}, {0.1, 0.2, 0.3}, {2.5, 3, 4, 5, 6.5}, 1.00}};
 
 entry_set_up set_up_of(const grains& t, double inscribed) {
   const auto side = [&](int k) { return t.radii[k] + t.radii[(k + 1) % 3] + t.gaps[k]; };
@@ -104,12 +105,13 @@ TEST_CASE("entry pressures at contact angle 0 are within their error, and tend t
       CHECK(r.word("end") == describe(search_end::converged));
       if (std::isfinite(r.number("corrected"))) {
         CHECK(std::abs(r.number("corrected") / t.truth - 1) <= r.number("discretisation") + width / 2);
-        inscribed.push_back(nodes);
-        raw.push_back((r.number("lower") + r.number("upper")) / 2);
+        if (nodes >= 4) {
+          inscribed.push_back(nodes);
+          raw.push_back((r.number("lower") + r.number("upper")) / 2);
+        }
       }
     }
-    if (t.inscribed.size() >= 3) {
-      REQUIRE(raw.size() >= 3);
+    if (inscribed.size() >= 4) {
       const double limit = limit_of(inscribed, raw);
       MESSAGE(std::string(t.name) << ": " << limit << " in the limit of fine lattices");
       // films grow with the logarithm of the size, which no straight line in 1/r_in has: four points with gaps of 0.4 R

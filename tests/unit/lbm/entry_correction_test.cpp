@@ -141,8 +141,8 @@ TEST_CASE("correction and error hold for the set-up that they were measured with
 
 TEST_CASE("the error stated covers what was found above 0 where the correction was not calibrated") {
   constexpr double degree = pi<double> / 180;
-  CHECK(entry_error(5, 20 * degree) >= 0.041);  // gap 0.4 R
-  CHECK(entry_error(3, 40 * degree) >= 0.06);   // touching
-  CHECK(entry_error(4, 60 * degree) >= 0.106);
+  CHECK(entry_error(5, 20 * degree) >= 0.042);  // gap 0.4 R
+  CHECK(entry_error(3, 40 * degree) >= 0.063);  // touching
+  CHECK(entry_error(4, 60 * degree) >= 0.0895);
   CHECK(entry_error(3) == doctest::Approx(0.08889).epsilon(1e-4));
 }
