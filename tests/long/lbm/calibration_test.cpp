@@ -177,7 +177,7 @@ TEST_CASE("bubbles and menisci at rest show the tensions and angles that are ask
     CHECK(std::abs(b.at(0) / of_table - 1) < 3e-3);
   }
 
-  // half a ball on an inclined mirror of images and on a face of the box, nodes in 2000 steps: bounds are what is reached
+  // half a ball on an inclined mirror of images and on a face, 2000 steps: bounds are what is reached
   for (const double nodes : {58.0, 61.3}) {
     const auto b = book.row(name_of("half_ball", 1.8, nodes), [&] {
       const auto exact = half_bubbles::on_mirror(false, true, nodes);
