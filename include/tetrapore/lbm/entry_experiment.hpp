@@ -56,8 +56,8 @@ inline constexpr calibrated_pair pair_18{1.8, 1.003, 1.99526, 0.5, 0.0877};
 /// What is left of the error behind correction and retraction, relative: the largest over throats that they were not
 /// calibrated on, against Surface Evolver or, unequal grains, the least plane value.
 /// \par Units     θ [rad]
-/// \par Accuracy  θ = 0 (gaps 0.2 and 0.4 R, unequal grains): largest found 4 % from r_in = 4 to 8.5 nodes, 5.3 % at 3,
-///                14 % at 2 to 2.5. θ = 10 to 40° (equal spheres, docs/campaigns/throat_angles.json): 4.2 % from
+/// \par Accuracy  θ = 0 (gaps 0.2 and 0.4 R, unequal grains): largest found 4.2 % from r_in = 4 to 8.5 nodes, 5.3 % at
+///                3, 14 % at 2 to 2.5. θ = 10 to 40° (equal spheres, docs/campaigns/throat_angles.json): 4.2 % from
 ///                r_in = 4 to 6, those it was calibrated on included, 6.3 % at 2 and 3. θ = 60°: 9 % at 4, 6.1 % at 5
 ///                nodes. A bracket's half width comes on top. NaN at angles that were not measured: between 0 and 10°
 ///                and above 60°
