@@ -83,7 +83,8 @@ rest_report rest(Simulation& s, const rest_options& o, Look look) {
 [[nodiscard]] inline measurement at_rest(double value, const rest_report& r, double discretisation) noexcept {
   const bool rests = r.end == hold_end::stable || r.end == hold_end::missed;
   const double at = rests ? value : quiet_nan<double>;
-  return {at, at * (1 - r.change), at * (1 + r.change), discretisation, r.updates, verdict_of(r.end), describe(r.end)};
+  const double change = std::abs(at) * r.change;
+  return {at, at - change, at + change, discretisation, r.updates, verdict_of(r.end), describe(r.end)};
 }
 
 /// Two components with ψ = ρ or another potential that repel each other with the strength G and relax with τ.
