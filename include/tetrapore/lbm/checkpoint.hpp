@@ -53,7 +53,7 @@ struct checkpoint_header {
   std::uint64_t parameters;  ///< hash of what the state belongs to
   std::uint64_t size;        ///< bytes between this header and the checksum
 };
-inline constexpr std::array<char, 8> checkpoint_magic{'t', 'p', 'l', 'b', 'm', 's', 't', '2'};
+inline constexpr std::array<char, 8> checkpoint_magic{'t', 'p', 'l', 'b', 'm', 's', 't', '3'};
 inline constexpr std::uint64_t checkpoint_order = 0x0102030405060708ULL;
 
 }  // namespace detail
