@@ -20,13 +20,15 @@ inline entry_set_up equal_spheres(double gap, double inscribed) {
   return s;
 }
 
-/// A search from a first bracket of ±30 % around `factor` × where the entry pressure is expected.
-inline entry_result found(const entry_set_up& s, double factor, double width) {
+/// A search from a first bracket that begins and ends at these shares of where the entry pressure is expected: its
+/// middle is not what is expected.
+inline entry_result found(const entry_set_up& s, double from, double to, double width, double widen) {
   entry_experiment<float> e(s);
-  search_options o = e.bracket(factor, width);
-  o.lower = 0.7 * (o.lower + o.upper) / 2;
-  o.upper = 1.3 / 0.7 * o.lower;
-  o.widen = 1.3;
+  search_options o = e.bracket(1, width);
+  const double expected = (o.lower + o.upper) / 2;
+  o.lower = from * expected;
+  o.upper = to * expected;
+  o.widen = widen;
   threshold_search search(o);
   run(e, search);
   return e.result(search);

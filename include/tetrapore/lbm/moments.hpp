@@ -159,8 +159,8 @@ class simulation<Model, T, storage::moments, Lanes> : public detail::surrounding
   static constexpr int axes = lattice_type::dimensions;
   static constexpr std::size_t numbers = components * moments;
   using number = pack<T, Lanes>;
-  /// Nodes at the end of a run that half a register holds are worked out in one: cores that take two steps for the
-  /// widest registers gain by it, others lose nothing.
+  /// Nodes at the end of a run that half a register of 64 bytes holds are worked out in one: a core that takes two
+  /// steps for the whole gains by it.
   static constexpr int half_lanes = Lanes * sizeof(T) == 64 ? Lanes / 2 : 0;
   using half_number = pack<T, half_lanes == 0 ? Lanes : half_lanes>;
 

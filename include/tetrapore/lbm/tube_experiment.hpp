@@ -30,19 +30,16 @@ struct tube_set_up {
   double contact_angle = 0;            ///< [rad]
   calibrated_mixture mixture{};
   std::size_t most_nodes = 1000000;
-  double near =
-      0.01;  ///< share by which the main density may differ from that of the mixture; σ is that of the density found
+  double near = 0.01;          ///< share by which the main density may miss the mixture's; σ is that of what is found
   double patience = 6000;      ///< steps per node of the arcs' radius after which a tube that still moves is given up
   kept_waits* kept = nullptr;  ///< where to go on from, and where states are saved
 };
 
 /// What a tube shows. \par Units  1/length of the section but where said
 struct tube_result {
-  double pressure = 0;  ///< p/σ that the fluids show in the tube as it lies on the lattice
-  double entry =
-      0;           ///< the same for the section itself: its walls and films are not where they were expected; NaN where
-                   ///< the law does not cover the section that the fluids see
-  double law = 0;  ///< p/σ of Mayer, Stowe & Princen for the section
+  double pressure = 0;    ///< p/σ that the fluids show in the tube as it lies on the lattice
+  double entry = 0;       ///< of the section itself, where walls and films really are; NaN where no law covers it
+  double law = 0;         ///< p/σ of Mayer, Stowe & Princen for the section
   double tension = 0;     ///< σ at these densities
   double shift = 0;       ///< nodes of film at what the fluids show
   double retraction = 0;  ///< nodes by which the walls lie further out

@@ -35,14 +35,7 @@ campaigns::row row_of(const spheres& t, double inscribed) {
   s.contact_angle = t.degrees * pi<double> / 180;
   s.patience = 8000;
   s.rules.most_steps = 50000;
-  entry_experiment<float> e(s);
-  search_options o = e.bracket(1, width);
-  const double expected = (o.lower + o.upper) / 2;
-  o.lower = 0.87 * expected;  // so that no middle of a bracket is what is expected
-  o.upper = 1.06 * expected;
-  threshold_search search(o);
-  run(e, search);
-  const entry_result r = e.result(search);
+  const entry_result r = found(s, 0.87, 1.06, width, 1 + width);
   campaigns::row row;
   row.put("degrees", t.degrees).put("gap", t.gap).put("inscribed", inscribed).put("calibrating", t.calibrating);
   row.put("end", describe(r.end)).put("last_hold", describe(r.last));

@@ -42,7 +42,7 @@ constexpr double width = 0.03;  // of a bracket
 campaigns::row row_of_search(double gap, double inscribed, double factor) {
   const entry_set_up s = equal_spheres(gap, inscribed);
   const double best = plane_entry_of(s.throat, s.sides).best;
-  const entry_result r = found(s, factor, width);
+  const entry_result r = found(s, 0.7 * factor, 1.3 * factor, width, 1.3);
   campaigns::row row;
   row.put("search", true).put("gap", gap).put("inscribed", inscribed).put("start", factor);
   row.put("end", describe(r.end)).put("last_hold", describe(r.last));

@@ -46,14 +46,7 @@ constexpr double width = 0.02;
 campaigns::row row_of(const grains& t, double inscribed) {
   const entry_set_up s = set_up_of(t, inscribed);
   const double best = plane_entry_of(s.throat, s.sides).best;
-  entry_experiment<float> e(s);
-  search_options o = e.bracket(1, width);
-  const double expected = (o.lower + o.upper) / 2;
-  o.lower = 0.87 * expected;  // so that no middle of a bracket is what is expected
-  o.upper = 1.06 * expected;
-  threshold_search search(o);
-  run(e, search);
-  const entry_result r = e.result(search);
+  const entry_result r = found(s, 0.87, 1.06, width, 1 + width);
   campaigns::row row;
   row.put("throat", t.name).put("inscribed", inscribed).put("end", describe(r.end)).put("last_hold", describe(r.last));
   row.put("lower", r.lower / best).put("upper", r.upper / best).put("corrected", r.value / best);

@@ -10,14 +10,14 @@ using namespace lattice_throats;
 
 TEST_CASE("brackets that start 30 % too low and 30 % too high end overlapping") {
   const entry_set_up s = equal_spheres(0.4, 2);
-  const entry_result low = found(s, 0.7, 0.1);
+  const entry_result low = found(s, 0.7 * 0.7, 1.3 * 0.7, 0.1, 1.3);
   CHECK(low.end == search_end::converged);
   CHECK(low.upper - low.lower <= 0.1 * (low.upper + low.lower) / 2 * (1 + 1e-9));
   CHECK(low.discretisation == doctest::Approx(0.2));  // 0.05 (4 / 2)²: what was seen at 2 nodes is 0.14
   CHECK(low.updates > 0);
   CHECK(low.film == film_status::unresolved);
   if (!sanitized) {
-    const entry_result high = found(s, 1.3, 0.1);
+    const entry_result high = found(s, 0.7 * 1.3, 1.3 * 1.3, 0.1, 1.3);
     CHECK(high.end == search_end::converged);
     CHECK(low.lower < high.upper);
     CHECK(high.lower < low.upper);
